@@ -1,0 +1,138 @@
+// A scene as its author describes it, after checking: complete, consistent, SI units (m, s, kg, N, Pa).
+// Everything that a run depends on is here; `Case` values written as TOML run again to the same result.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace porosph {
+
+using Point = Eigen::Vector2d;         ///< position in the plane, x to the right, y upwards [m]
+using Polygon = std::vector<Point>;    ///< closed outline, last point not repeated, either orientation [m]
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// How the particles fill the soil's polygons.
+enum class Arrangement {
+  lattice,     ///< square lattice, cell centres inside or on the outline; every particle the same volume
+  fitted,      ///< square lattice whose cells are clipped by the outline: volumes and centroids fit it
+  disordered,  ///< fitted cells of randomly displaced points (for tests of robustness)
+};
+
+struct ParticlesCase {
+  double spacing = 0;            ///< dx [m]
+  double smoothing_ratio = 1.2;  ///< h / dx
+  Arrangement arrangement = Arrangement::lattice;
+  double disorder = 0;    ///< largest random displacement / dx, with Arrangement::disordered
+  int seed = 1;           ///< of the random displacements
+};
+
+/// One soil: where it is and what it is. Linear elastic (eqs. 26-30), optionally without tension.
+struct SoilCase {
+  std::string name;
+  Polygon polygon;
+  std::vector<Polygon> holes;
+  double youngs_modulus = 0;           ///< E [Pa]
+  double poissons_ratio = 0;           ///< nu [-]
+  double unit_weight_saturated = 0;    ///< gamma_sat [N/m3]
+  double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
+  bool no_tension = false;             ///< mean effective stress cut off at zero
+  Point velocity = Point::Zero();      ///< initial velocity [m/s]
+};
+
+/// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.
+struct WaterStretch {
+  double x_from = -never, x_to = never;  ///< [m]
+  double level = 0;                      ///< y of the free surface [m]
+};
+struct WaterCase {
+  double unit_weight = 9810;  ///< gamma_w [N/m3]
+  std::vector<WaterStretch> stretches;
+  bool present() const { return !stretches.empty(); }
+};
+
+enum class BoundaryKind {
+  roller,  ///< free to slide along the segment, no motion across it (mirrored ghost particles)
+  fixed,   ///< no motion at all (virtual particles)
+};
+struct BoundaryCase {
+  BoundaryKind kind = BoundaryKind::fixed;
+  Point from = Point::Zero(), to = Point::Zero();  ///< straight segment; soil on one side of it [m]
+};
+
+/// The momentum equation's discrete form.
+enum class Motion {
+  conventional,  ///< eq. (17): pore pressure summed as p_a + p_b
+  proposed,      ///< eq. (24): pore pressure as p_b - p_a
+  rho_squared,   ///< eq. (25): stress over rho squared
+  consistent,    ///< each stress with its own correction matrix: the adjoint of the strain rate
+};
+struct FormulationCase {
+  Motion motion = Motion::consistent;
+  bool kernel_correction = true;        ///< eqs. (9), (10)
+  double artificial_viscosity_alpha = 0;  ///< linear term of the pairwise artificial viscosity [-]
+  double artificial_viscosity_beta = 0;   ///< quadratic term [-]
+  double artificial_stress = 0;           ///< epsilon of the artificial stress [-]; 0 is off
+  double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
+  double zero_energy_control = 0;         ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
+  double refresh_strain = 0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
+};
+
+struct LoadingCase {
+  double gravity = 9.81;        ///< g, downwards; also turns unit weight into density [m/s2]
+  bool gravity_applied = true;  ///< false: weightless scene (collisions, vibrations)
+  bool k0_stress = false;       ///< start from the K0 stress instead of zero stress
+  double k0 = -1;               ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
+  double damping = 0;           ///< xi of eq. (34) [-]
+  double damping_until = never; ///< time at which the damping ends [s]
+};
+
+struct TimeCase {
+  double end = 0;        ///< [s]
+  double courant = 0.2;  ///< dt = courant * h / c_p, c_p the fastest compression wave [-]
+};
+
+/// When a run ends before its time.
+struct StopCase {
+  double unbalanced_force_ratio = 0;  ///< equilibrium when the ratio has fallen below this; 0: never [-]
+  bool on_separation = true;          ///< unstable when particles have left the body
+};
+
+struct OutputCase {
+  double interval = 0;          ///< between frames; 0: first and last only [s]
+  double history_interval = 0;  ///< between rows of the history; 0: every step [s]
+  std::vector<std::string> fields = {"Displacement", "Velocity",        "EffectiveStress", "TotalStress",
+                                     "PorePressure", "Density",         "Mass",            "SmoothingLength",
+                                     "SoilId",       "ParticleId"};
+};
+
+struct ProbeCase {
+  std::string name;
+  Point position = Point::Zero();  ///< at t = 0; the probe then moves with the soil [m]
+};
+
+/// The exact solution that the run's final state is compared with.
+enum class Reference {
+  none,
+  column,  ///< finite-strain column under its own weight and the water (one soil, level ground, level water)
+};
+
+struct Case {
+  std::string title;
+  ParticlesCase particles;
+  std::vector<SoilCase> soils;
+  WaterCase water;
+  std::vector<BoundaryCase> boundaries;
+  FormulationCase formulation;
+  LoadingCase loading;
+  TimeCase time;
+  StopCase stop;
+  OutputCase output;
+  std::vector<ProbeCase> probes;
+  Reference reference = Reference::none;
+
+  double smoothing_length() const { return particles.smoothing_ratio * particles.spacing; }  ///< h [m]
+};
+
+}  // namespace porosph

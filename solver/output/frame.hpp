@@ -1,0 +1,63 @@
+// What leaves the solver: the particle data of one instant, and the story of a whole run.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace porosph {
+
+/// One array of particle data, SI units, particle-major: value c of particle i is values[i * width + c].
+struct FrameField {
+  std::string name;                     ///< CamelCase, as in the files
+  std::vector<std::string> components;  ///< names of the components; empty for a scalar
+  std::variant<std::vector<double>, std::vector<std::int32_t>> values;
+  int width() const { return components.empty() ? 1 : static_cast<int>(components.size()); }
+};
+
+/// Particle data at one instant. Only real particles, never ghosts.
+struct Frame {
+  std::int64_t step = 0;
+  double time = 0;             ///< [s]
+  std::vector<double> points;  ///< 3 per particle, z = 0 in plane strain [m]
+  std::vector<FrameField> fields;
+};
+
+/// Probe readings over time: one row per recorded instant.
+struct History {
+  std::vector<std::string> columns;  ///< "time", then "<probe>.<quantity>", SI units
+  std::vector<std::vector<double>> rows;
+};
+
+enum class RunStatus { completed, equilibrium, unstable, interrupted };
+
+struct ErrorNorms {
+  double relative_l2 = 0;  ///< ||computed - reference|| / ||reference||, volume-weighted [-]
+  double max_abs = 0;      ///< largest |computed - reference|, in the field's unit
+};
+
+/// The story of a run, as summary.json tells it.
+struct Summary {
+  RunStatus status = RunStatus::completed;
+  std::string message;  ///< where and why, if it did not simply complete
+  std::string title, formulation;
+  bool kernel_correction = true;
+  std::int64_t particles = 0, steps = 0;
+  double time = 0, time_step = 0;  ///< [s]
+  int threads = 1;
+  double wall_seconds = 0, stepping_seconds = 0, particle_steps_per_second = 0;
+  std::int64_t peak_memory_bytes = 0;
+  double unbalanced_force_ratio = 0;
+  struct Probe {
+    double x = 0, y = 0;                    ///< where it was at t = 0 [m]
+    std::map<std::string, double> values;  ///< quantity -> final value, SI
+  };
+  std::map<std::string, Probe> probes;
+  std::map<std::string, ErrorNorms> errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
+};
+
+}  // namespace porosph
