@@ -1,0 +1,79 @@
+#include "solver/boundary/wall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace porosph {
+namespace {
+
+constexpr double on_line = 1e-9;  // relative to the search range
+
+Vec2 normal_towards(const Wall& wall, std::span<const Vec2> points, double range) {
+  const Vec2 tangent = (wall.to - wall.from).normalized();
+  Wall left = wall, right = wall;
+  left.normal = Vec2(-tangent.y(), tangent.x());
+  right.normal = -left.normal;
+  const auto facing = [&](const Wall& w) {
+    return std::count_if(points.begin(), points.end(), [&](const Vec2& p) { return w.faces(p, range); });
+  };
+  const auto on_left = facing(left), on_right = facing(right);
+  if (on_left == 0 && on_right == 0)
+    throw std::runtime_error(fmt::format("boundary from ({}, {}) to ({}, {}) touches no soil particle",
+                                         wall.from.x(), wall.from.y(), wall.to.x(), wall.to.y()));
+  return on_left >= on_right ? left.normal : right.normal;
+}
+
+/// An end that another wall meets at an angle is a corner: images in the one wall have images in the other.
+bool met_at(const Vec2& end, const Wall& self, std::span<const Wall> walls) {
+  const Vec2 tangent = (self.to - self.from).normalized();
+  return std::any_of(walls.begin(), walls.end(), [&](const Wall& other) {
+    if (&other == &self) return false;
+    const Vec2 direction = (other.to - other.from).normalized();
+    const bool parallel = std::abs(tangent.dot(direction)) > 1 - 1e-9;
+    const double along = std::clamp((end - other.from).dot(direction), 0.0, (other.to - other.from).norm());
+    return !parallel && (other.from + along * direction - end).norm() < 1e-6 * (self.to - self.from).norm();
+  });
+}
+
+}  // namespace
+
+bool Wall::faces(const Vec2& p, double range) const {
+  const double away = distance(p);
+  if (away < on_line * range || away >= range) return false;
+  const Vec2 line = to - from;
+  const double length = line.norm(), along = (p - from).dot(line) / length, slack = on_line * range;
+  return along >= (continued_at_from ? -range : -slack) && along < (continued_at_to ? length + range : length - slack);
+}
+
+std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points, double range) {
+  std::vector<Wall> walls;
+  for (const BoundaryCase& b : boundaries) walls.push_back({.kind = b.kind, .from = b.from, .to = b.to});
+  for (Wall& wall : walls) {
+    wall.normal = normal_towards(wall, points, range);
+    wall.bears_weight = wall.kind == BoundaryKind::fixed || std::abs(wall.normal.y()) > 1e-9;
+  }
+  const auto rank = [](const Wall& w) { return w.kind == BoundaryKind::fixed ? 0 : w.bears_weight ? 1 : 2; };
+  std::stable_sort(walls.begin(), walls.end(), [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
+  for (Wall& wall : walls) {
+    wall.continued_at_from = met_at(wall.from, wall, walls);
+    wall.continued_at_to = met_at(wall.to, wall, walls);
+  }
+  return walls;
+}
+
+void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
+                   std::vector<Vec2>& points, std::vector<Image>& images) {
+  for (std::size_t w = first; w < last; ++w) {
+    const std::size_t present = points.size();
+    for (std::size_t i = 0; i < present; ++i) {
+      if (!walls[w].faces(points[i], range)) continue;
+      images.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
+      points.push_back(walls[w].mirrored(points[i]));
+    }
+  }
+}
+
+}  // namespace porosph

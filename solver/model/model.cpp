@@ -1,0 +1,70 @@
+#include "solver/model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solver/geometry/place_particles.hpp"
+
+namespace porosph {
+namespace {
+
+Particles make_particles(const Case& scene, const Water& water, const std::vector<Site>& sites) {
+  Particles p;
+  for (const Site& site : sites) {
+    const SoilCase& soil = scene.soils[site.soil];
+    const bool wet = water.present() && water.depth(site.position.x(), site.position.y()) > 0;
+    const double density = (wet ? soil.unit_weight_saturated : soil.unit_weight_unsaturated) / scene.loading.gravity;
+    p.position.push_back(site.position);
+    p.velocity.push_back(soil.velocity);
+    p.density.push_back(density);
+    p.mass.push_back(density * site.area);
+    p.soil.push_back(site.soil);
+    p.id.push_back(static_cast<std::int32_t>(p.id.size()));
+    p.pore_pressure.push_back(water.pore_pressure(site.position.x(), site.position.y()));
+    p.stress.push_back({});
+  }
+  p.start = p.position;
+  return p;
+}
+
+void check_every_soil_has_particles(const Case& scene, const Particles& particles) {
+  for (std::size_t s = 0; s < scene.soils.size(); ++s)
+    if (std::count(particles.soil.begin(), particles.soil.end(), static_cast<std::int32_t>(s)) == 0)
+      throw std::runtime_error(fmt::format("soil '{}' holds no particle at a spacing of {} m", scene.soils[s].name,
+                                           scene.particles.spacing));
+}
+
+void add_k0_stress(const Case& scene, Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double nu = scene.soils[particles.soil[i]].poissons_ratio;
+    const double k0 = scene.loading.k0 >= 0 ? scene.loading.k0 : nu / (1 - nu);
+    particles.stress[i] = k0_stress(scene, particles.position[i], k0);
+  }
+}
+
+}  // namespace
+
+Model build_model(const Case& scene) {
+  Model model;
+  model.spacing = scene.particles.spacing;
+  model.smoothing_length = scene.smoothing_length();
+  model.water = Water(scene.water);
+  if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
+  for (const SoilCase& s : scene.soils)
+    model.soils.push_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
+
+  model.particles = make_particles(scene, model.water, place_particles(scene));
+  check_every_soil_has_particles(scene, model.particles);
+  if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
+  model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
+    model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
+  }
+  return model;
+}
+
+}  // namespace porosph

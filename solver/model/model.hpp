@@ -1,0 +1,32 @@
+// A case made ready to compute: particles, soils, water and walls.
+#pragma once
+
+#include <vector>
+
+#include "solver/boundary/wall.hpp"
+#include "solver/case/case.hpp"
+#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/model/particles.hpp"
+#include "solver/model/water.hpp"
+
+namespace porosph {
+
+struct Model {
+  Particles particles;
+  std::vector<LinearElastic> soils;
+  Water water;
+  std::vector<Wall> walls;
+  double spacing = 0;           ///< dx [m]
+  double smoothing_length = 0;  ///< h [m]
+  Vec2 gravity = Vec2::Zero();  ///< [m/s2]
+  double wave_speed = 0;        ///< fastest c_p = sqrt(M / rho) of all soils, water not moving along [m/s]
+};
+
+/// Places the particles and gives them mass, initial stress (zero or K0) and pore pressure.
+/// Throws std::runtime_error where a soil holds no particle or a boundary touches none.
+Model build_model(const Case& scene);
+
+/// K0 stress of a particle: the weight of the soil and water above it, along a vertical line (effective) [Pa].
+Stress k0_stress(const Case& scene, const Point& position, double k0);
+
+}  // namespace porosph

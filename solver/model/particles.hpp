@@ -1,0 +1,27 @@
+// The soil's state, one entry per particle.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/tensor.hpp"
+
+namespace porosph {
+
+/// Structure of arrays, all of the same length, SI units. Ghosts and virtual particles are not among them.
+struct Particles {
+  std::vector<Vec2> position, velocity;  ///< [m], [m/s]; between steps the velocity is half a step behind
+  std::vector<Vec2> start;               ///< position at t = 0 [m]
+  std::vector<Stress> stress;            ///< effective [Pa]
+  std::vector<double> pore_pressure;     ///< p_w <= 0 [Pa]
+  std::vector<double> density;           ///< [kg/m3]
+  std::vector<double> mass;              ///< per metre of thickness [kg/m]
+  std::vector<std::int32_t> soil;        ///< index into the model's soils
+  std::vector<std::int32_t> id;          ///< number in the arrangement's order
+
+  std::size_t size() const { return position.size(); }
+  double volume(std::size_t i) const { return mass[i] / density[i]; }  ///< [m2]
+  Vec2 displacement(std::size_t i) const { return position[i] - start[i]; }
+};
+
+}  // namespace porosph

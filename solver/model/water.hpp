@@ -1,0 +1,34 @@
+// Still water and the pore pressure it makes.
+#pragma once
+
+#include <algorithm>
+
+#include "solver/case/case.hpp"
+
+namespace porosph {
+
+/// Hydrostatic water, level per stretch of x.
+class Water {
+ public:
+  Water() = default;
+  explicit Water(const WaterCase& water) : unit_weight_(water.unit_weight), stretches_(water.stretches) {}
+
+  bool present() const { return !stretches_.empty(); }
+  double unit_weight() const { return unit_weight_; }  ///< gamma_w [N/m3]
+
+  /// Height of the water level at x above y; negative or -never where the point is dry [m].
+  double depth(double x, double y) const {
+    for (const WaterStretch& s : stretches_)
+      if (x >= s.x_from && x <= s.x_to) return s.level - y;
+    return -never;
+  }
+
+  /// p_w, negative in compression, zero above the level (eq. 12) [Pa].
+  double pore_pressure(double x, double y) const { return -unit_weight_ * std::max(0.0, depth(x, y)); }
+
+ private:
+  double unit_weight_ = 0;
+  std::vector<WaterStretch> stretches_;
+};
+
+}  // namespace porosph

@@ -1,0 +1,76 @@
+#include "solver/monitor/instability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "solver/neighbours/neighbour_list.hpp"
+
+namespace porosph {
+namespace {
+
+std::string name_of(const Particles& p, std::size_t i) {
+  return fmt::format("particle {} (from x = {:.4g} m, y = {:.4g} m)", p.id[i], p.start[i].x(), p.start[i].y());
+}
+
+bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); }
+
+}  // namespace
+
+std::optional<std::string> find_runaway(const Model& model, double time) {
+  const Particles& p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!p.velocity[i].allFinite() || !p.position[i].allFinite() || !finite(p.stress[i]))
+      return fmt::format("at {:.6g} s {} is no longer finite; the usual cause is a time step that is too large "
+                         "(time.courant)", time, name_of(p, i));
+    if (p.velocity[i].norm() > model.wave_speed)
+      return fmt::format("at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); the usual "
+                         "cause is a time step that is too large (time.courant), or soil that pulls itself apart",
+                         time, name_of(p, i), p.velocity[i].norm(), model.wave_speed);
+  }
+  return std::nullopt;
+}
+
+Bodies find_bodies(std::span<const Vec2> positions, double support) {
+  const NeighbourList near = find_neighbours(positions, positions.size(), support);
+  Bodies bodies;
+  bodies.body.assign(positions.size(), -1);
+  std::vector<std::int32_t> open;
+  for (std::size_t seed = 0; seed < positions.size(); ++seed) {
+    if (bodies.body[seed] >= 0) continue;
+    const auto number = static_cast<std::int32_t>(bodies.count++);
+    bodies.body[seed] = number;
+    open.push_back(static_cast<std::int32_t>(seed));
+    while (!open.empty()) {
+      const std::int32_t a = open.back();
+      open.pop_back();
+      for (std::int32_t b : near.of(a)) {
+        if (bodies.body[b] >= 0) continue;
+        bodies.body[b] = number;
+        open.push_back(b);
+      }
+    }
+  }
+  return bodies;
+}
+
+std::optional<std::string> find_separation(const Model& model, std::int64_t bodies_at_start, double time) {
+  const Particles& p = model.particles;
+  const Bodies bodies = find_bodies(p.position, 2 * model.smoothing_length);
+  if (bodies.count <= bodies_at_start) return std::nullopt;
+  std::vector<std::int64_t> size(bodies.count, 0);
+  for (std::int32_t b : bodies.body) ++size[b];
+  std::vector<std::int32_t> order(bodies.count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return size[a] > size[b]; });
+  const std::int32_t thrown = order[bodies_at_start];
+  const auto first = static_cast<std::size_t>(
+      std::find(bodies.body.begin(), bodies.body.end(), thrown) - bodies.body.begin());
+  return fmt::format("at {:.6g} s {} and {} more have left the soil body, at ({:.4g}, {:.4g}) m; with water above the ground "
+                     "the usual cause is the conventional formulation (formulation.motion)",
+                     time, name_of(p, first), size[thrown] - 1, p.position[first].x(), p.position[first].y());
+}
+
+}  // namespace porosph

@@ -1,0 +1,11 @@
+#include "solver/motion/consistent.hpp"
+#include "solver/motion/paper.hpp"
+
+namespace porosph {
+
+std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model) {
+  if (formulation.motion == Motion::consistent) return std::make_unique<ConsistentDynamics>(formulation, model);
+  return std::make_unique<PaperDynamics>(formulation, model);
+}
+
+}  // namespace porosph

@@ -1,0 +1,71 @@
+// The paper's motion equations (17), (24), (25) on the present configuration.
+#pragma once
+
+#include <vector>
+
+#include "solver/kernel/cubic_spline.hpp"
+#include "solver/motion/dynamics.hpp"
+#include "solver/motion/lanes.hpp"
+#include "solver/motion/paper_form.hpp"
+#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/stabilisation/artificial_viscosity.hpp"
+
+namespace porosph {
+
+/// Kernel gradients are made anew in every step. Rollers are mirrored ghosts; fixed walls are rows of virtual particles
+/// that stay where they are, take the stress of the particle that looks at them, and the velocity
+/// -min(d_b / d_a, 1/2) v_a that makes it stick to the wall (Morris et al. 1997; Bui et al. 2008).
+class PaperDynamics final : public Dynamics {
+ public:
+  PaperDynamics(const FormulationCase& formulation, Model& model);
+
+  void prepare() override;
+  void accelerations(std::span<Vec2> out) override;
+  void velocity_gradients(std::span<Mat2> out) override;
+  void strain(double dt) override;
+
+ private:
+  void make_virtual_particles();
+  void search();
+  void move_ghosts();
+  void make_gradients();
+  void make_gradients_of(std::size_t a);
+  void fill_ghost_velocities();
+  void fill_records();
+  void fill_artificial_stress();
+  Vec2 stress_and_pressure(std::size_t a) const;
+  Vec2 stabilisation(std::size_t a) const;
+  Vec2 stabilisation_at_walls(std::size_t a) const;
+  Mat2 velocity_gradient(std::size_t a) const;
+
+  Model& model_;
+  FormulationCase formulation_;
+  PaperForm form_;
+  ArtificialViscosity viscosity_;
+  CubicSpline<2> kernel_;
+  double skin_;                 ///< neighbours are searched this much beyond the support [m]
+  double artificial_exponent_;  ///< n = W(0) / W(dx)
+
+  std::size_t fixed_walls_ = 0;
+  std::vector<Vec2> virtual_points_;
+  std::vector<double> virtual_volume_;
+  std::vector<std::int32_t> virtual_wall_;
+  std::vector<double> virtual_pressure_;
+
+  std::vector<Vec2> points_, velocities_;  ///< of particles, then ghosts
+  std::vector<Image> ghosts_;
+  std::vector<Vec2> searched_;  ///< positions at the last search
+  NeighbourList neighbours_, wall_neighbours_;
+  std::vector<PairGradient> gradient_, wall_gradient_;  ///< corrected
+  std::vector<double> stickiness_;                      ///< per wall pair: 1 + min(d_b / d_a, 1/2)
+  std::vector<Vec2> gradient_sum_;                      ///< sum of G_ab over particles and ghosts
+  struct WallSums {
+    Vec2 gradient = Vec2::Zero(), velocity = Vec2::Zero(), pressure = Vec2::Zero();
+  };
+  std::vector<WallSums> wall_sums_;  ///< sums over virtual neighbours of G, stickiness G, p_b G
+  std::vector<Record> records_;
+  std::vector<Eigen::Vector3d> artificial_stress_;  ///< R, of particles and ghosts
+  bool any_tension_ = false;
+};
+
+}  // namespace porosph

@@ -1,0 +1,28 @@
+// Who is near whom: one packed list per particle.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/tensor.hpp"
+
+namespace porosph {
+
+/// Neighbours of particle a: index[begin[a]] .. index[begin[a + 1] - 1], never a itself, in increasing order.
+struct NeighbourList {
+  std::vector<std::int64_t> begin = {0};
+  std::vector<std::int32_t> index;
+
+  std::span<const std::int32_t> of(std::size_t a) const {
+    return {index.data() + begin[a], index.data() + begin[a + 1]};
+  }
+};
+
+/// The neighbours within `radius` [m], among all points, of the first `count` points.
+NeighbourList find_neighbours(std::span<const Vec2> points, std::size_t count, double radius);
+
+/// The neighbours of each centre among `points`, within `radius` [m].
+NeighbourList find_neighbours(std::span<const Vec2> centres, std::span<const Vec2> points, double radius);
+
+}  // namespace porosph

@@ -1,0 +1,71 @@
+// A case in motion.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/model/model.hpp"
+#include "solver/motion/dynamics.hpp"
+#include "solver/simulation/probe.hpp"
+
+namespace porosph {
+
+/// Advances a case step by step. Not copyable; one thread calls it, it uses OpenMP inside.
+class Simulation {
+ public:
+  /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
+  explicit Simulation(const Case& scene);
+
+  /// One leapfrog step. Does nothing once the run has become unstable.
+  void advance();
+
+  std::int64_t step() const { return step_; }
+  std::int64_t last_step() const { return last_step_; }  ///< the step that reaches the case's end time
+  double time() const { return static_cast<double>(step_) * dt_; }  ///< [s]
+  double time_step() const { return dt_; }                          ///< [s]
+  const Case& scene() const { return scene_; }
+  const Model& model() const { return model_; }
+  const std::vector<Probe>& probes() const { return probes_; }
+  const Dynamics& dynamics() const { return *dynamics_; }
+
+  /// Accelerations at the present instant, damping left out [m/s2].
+  std::span<const Vec2> accelerations();
+  /// Velocities at the present instant (the integrator's are half a step behind) [m/s].
+  std::vector<Vec2> velocities();
+
+  /// Root mean square of the unbalanced forces over that of the weights; infinite in a weightless scene.
+  double unbalanced_force_ratio();
+  struct Energy {
+    double kinetic = 0, elastic = 0, gravity = 0, water = 0;  ///< per metre of thickness [J/m]
+    double total() const { return kinetic + elastic + gravity + water; }
+  };
+  /// Energy at the present instant; gravity and buoyancy relative to the start.
+  Energy energy();
+
+  /// What went wrong, where, and what usually causes it; empty while all is well.
+  const std::optional<std::string>& instability() const { return instability_; }
+  /// Looks for particles that have left the body (costs a neighbour search).
+  void look_for_separation();
+
+ private:
+  double damping() const;  ///< c_d of eq. (34) [1/s]
+  void drift();
+
+  Case scene_;
+  Model model_;
+  std::unique_ptr<Dynamics> dynamics_;
+  std::vector<Probe> probes_;
+  double dt_ = 0;
+  std::int64_t step_ = 0, last_step_ = 0;
+  std::vector<Vec2> accelerations_;
+  bool accelerations_valid_ = false;
+  std::int64_t bodies_at_start_ = 0;
+  std::optional<std::string> instability_;
+};
+
+/// Largest stable-by-the-CFL-number time step, rounded down so that whole steps reach the end time [s].
+double time_step(const Case& scene, const Model& model);
+
+}  // namespace porosph
