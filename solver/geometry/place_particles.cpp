@@ -43,6 +43,19 @@ void check_filled(const Case& scene, const std::vector<CellSite>& sites) {
                       scene.soils[soil].name, scene.particles.spacing));
 }
 
+std::vector<CellSite> arrange(const ParticlesCase& particles, const Grid& grid,
+                              const std::vector<Region>& regions) {
+  switch (particles.arrangement) {
+    case Arrangement::fitted:
+      return arrange_fitted(grid, regions);
+    case Arrangement::disordered:
+      return arrange_disordered(grid, regions, particles.disorder, particles.seed);
+    case Arrangement::lattice:
+      break;
+  }
+  return arrange_lattice(grid, regions);
+}
+
 }  // namespace
 
 std::vector<Site> place_particles(const Case& scene) {
@@ -51,13 +64,8 @@ std::vector<Site> place_particles(const Case& scene) {
   check_apart(scene.soils, regions);
   const Grid grid = cover(regions, scene.particles.spacing);
 
-  std::vector<CellSite> sites;
-  for (std::size_t soil = 0; soil < regions.size(); ++soil) {
-    const std::vector<CellSite> more = arrange_lattice(grid, regions[soil], static_cast<int>(soil));
-    sites.insert(sites.end(), more.begin(), more.end());
-  }
+  std::vector<CellSite> sites = arrange(scene.particles, grid, regions);
   std::ranges::stable_sort(sites, {}, &CellSite::cell);
-  sites.erase(std::ranges::unique(sites, {}, &CellSite::cell).begin(), sites.end());
   check_filled(scene, sites);
 
   std::vector<Site> result;
