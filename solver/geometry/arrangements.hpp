@@ -1,0 +1,31 @@
+// The ways of placing particles. Each returns the soils' sites one soil after the other.
+#pragma once
+
+#include <vector>
+
+#include "solver/geometry/grid.hpp"
+#include "solver/geometry/place_particles.hpp"
+
+namespace porosph {
+
+/// A site and the lattice cell that it belongs to.
+struct CellSite {
+  int cell = 0;
+  Site site;
+};
+
+/// Whole cells, those whose centre is inside or on the outline. The first soil takes a centre on a common
+/// border.
+std::vector<CellSite> arrange_lattice(const Grid& grid, const std::vector<Region>& regions);
+
+/// Cells cut by the outline; slivers of less than 0.35 spacing^2 are joined with the neighbour of the same
+/// soil that they share the longest edge with. Area and centroid are those of what results, so that each
+/// soil's area and first moments are kept. Walls and slits thinner than a cell do not part a particle in two.
+std::vector<CellSite> arrange_fitted(const Grid& grid, const std::vector<Region>& regions);
+
+/// Sites of arrange_lattice, each displaced at random by up to disorder * spacing in x and in y, but not out
+/// of its soil. Areas are those of the Voronoi cells of the soil's sites within the soil.
+std::vector<CellSite> arrange_disordered(const Grid& grid, const std::vector<Region>& regions,
+                                         double disorder, int seed);
+
+}  // namespace porosph
