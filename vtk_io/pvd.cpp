@@ -1,11 +1,11 @@
 #include "vtk_io/pvd.hpp"
 
 #include <fmt/format.h>
+#include <vtkIndent.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLParser.h>
-#include <vtkXMLUtilities.h>
 
 #include <algorithm>
 #include <charconv>
@@ -91,8 +91,8 @@ std::string pvd_text(const std::vector<SeriesFrame>& frames) {
   }
   std::ostringstream text;
   text << "<?xml version=\"1.0\"?>\n";
-  vtkIndent indent;
-  vtkXMLUtilities::FlattenElement(root, text, &indent, 0);
+  root->PrintXML(text, vtkIndent());
+  text << "\n";
   return text.str();
 }
 

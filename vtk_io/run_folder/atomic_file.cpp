@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "vtk_io/run_folder/descriptor.hpp"
@@ -62,12 +61,14 @@ void make_folder(const fs::path& folder) {
 
 std::string read_file(const fs::path& file) {
   std::error_code error;
-  if (fs::is_directory(file, error)) throw ReadError(file, "it is a folder");
+  const auto size = fs::file_size(file, error);  // fails for folders, too
+  if (error) throw ReadError(file, error.message());
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ReadError(file, std::generic_category().message(errno));
-  std::string content{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw ReadError(file, std::generic_category().message(errno));
+  std::string content(size, '\0');
+  if (!stream.read(content.data(), static_cast<std::streamsize>(size))) {
+    throw ReadError(file, std::generic_category().message(errno));
+  }
   return content;
 }
 
