@@ -1,0 +1,77 @@
+#include "vtk_io/particle_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "vtk_io/frame_file.hpp"
+#include "vtk_io/paraview_script.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+
+namespace porosph {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* frames_folder = "frames";
+constexpr const char* pvd_name = "particles.pvd";
+constexpr const char* script_name = "open_in_paraview.py";
+
+std::string frame_name(std::size_t number, FrameFormat format) {
+  return fmt::format("{}/particles_{:06}.{}", frames_folder, number,
+                     format == FrameFormat::poly_data ? "vtp" : "vtu");
+}
+
+bool is_frame(const fs::path& file) {
+  return file.filename().string().starts_with("particles_") &&
+         (file.extension() == ".vtp" || file.extension() == ".vtu");
+}
+
+}  // namespace
+
+SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
+    : folder_(std::move(folder)), options_(options) {
+  make_folder(folder_ / frames_folder);
+}
+
+SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions options) {
+  SeriesWriter series(std::move(folder), options);
+  series.frames_ = read_pvd(series.pvd());
+  std::erase_if(series.frames_, [&](const SeriesFrame& frame) { return frame.time > time; });
+  series.write_pvd();
+  series.remove_unnamed_frames();
+  return series;
+}
+
+fs::path SeriesWriter::pvd() const { return folder_ / pvd_name; }
+
+void SeriesWriter::write(const Frame& frame) {
+  if (!frames_.empty() && !(frame.time >= frames_.back().time)) {
+    throw std::invalid_argument(
+        fmt::format("frame: time {} after {} in the series", frame.time, frames_.back().time));
+  }
+  const auto name = frame_name(frames_.size(), options_.format);
+  write_frame(folder_ / name, frame, options_);
+  frames_.push_back({frame.time, name});
+  write_pvd();
+  if (frames_.size() == 1) {
+    remove_unnamed_frames();
+    write_file(folder_ / script_name, paraview_script(fs::absolute(folder_), pvd_name, frame));
+  }
+}
+
+void SeriesWriter::write_pvd() const { write_file(pvd(), pvd_text(frames_)); }
+
+void SeriesWriter::remove_unnamed_frames() const {
+  std::error_code ignored;  // a file left over does no harm
+  for (const auto& entry : fs::directory_iterator(folder_ / frames_folder, ignored)) {
+    const auto name = std::string(frames_folder) + "/" + entry.path().filename().string();
+    const bool named = std::ranges::count(frames_, name, &SeriesFrame::file) > 0;
+    if (!named && is_frame(entry.path())) fs::remove(entry.path(), ignored);
+  }
+}
+
+}  // namespace porosph

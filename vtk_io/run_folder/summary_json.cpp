@@ -1,0 +1,260 @@
+#include "vtk_io/run_folder/summary_json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
+
+namespace porosph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::pair<RunStatus, std::string_view>, 4> status_names{{
+    {RunStatus::completed, "completed"},
+    {RunStatus::equilibrium, "equilibrium"},
+    {RunStatus::unstable, "unstable"},
+    {RunStatus::interrupted, "interrupted"},
+}};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::array<std::pair<double, std::string_view>, 2> infinite_reasons{{
+    {infinity, "plus infinity"},
+    {-infinity, "minus infinity"},
+}};
+constexpr std::string_view nan_reason = "not a number";
+
+std::string reason_key(const std::string& key) { return key + "_reason"; }
+
+std::string_view reason(double value) {
+  for (const auto& [number, name] : infinite_reasons) {
+    if (value == number) return name;
+  }
+  return nan_reason;
+}
+
+void put(Json& object, const std::string& key, double value) {
+  if (std::isfinite(value)) {
+    object[key] = value;
+  } else {
+    object[key] = nullptr;
+    object[reason_key(key)] = reason(value);
+  }
+}
+
+std::string_view name_of(RunStatus status) {
+  for (const auto& [value, name] : status_names) {
+    if (value == status) return name;
+  }
+  throw std::invalid_argument("summary: unknown status");
+}
+
+Json to_json(const Summary::Probe& probe) {
+  Json values = Json::object();
+  for (const auto& [quantity, value] : probe.values) put(values, quantity, value);
+  return {{"position", Json::array({probe.x, probe.y})}, {"values", values}};
+}
+
+Json to_json(const ErrorNorms& norms) {
+  Json object;
+  put(object, "relative_l2", norms.relative_l2);
+  put(object, "max_abs", norms.max_abs);
+  return object;
+}
+
+template <typename Value>
+Json object_of(const std::map<std::string, Value>& entries) {
+  Json object = Json::object();
+  for (const auto& [name, value] : entries) object[name] = to_json(value);
+  return object;
+}
+
+Json to_json(const Summary& summary) {
+  Json json;
+  json["title"] = summary.title;
+  json["status"] = name_of(summary.status);
+  json["message"] = summary.message;
+  json["particles"] = summary.particles;
+  json["steps"] = summary.steps;
+  put(json, "time", summary.time);
+  put(json, "time_step", summary.time_step);
+  json["threads"] = summary.threads;
+  put(json, "wall_seconds", summary.wall_seconds);
+  put(json, "stepping_seconds", summary.stepping_seconds);
+  put(json, "particle_steps_per_second", summary.particle_steps_per_second);
+  json["peak_memory_bytes"] = summary.peak_memory_bytes;
+  json["formulation"] = summary.formulation;
+  json["kernel_correction"] = summary.kernel_correction;
+  put(json, "unbalanced_force_ratio", summary.unbalanced_force_ratio);
+  json["probes"] = object_of(summary.probes);
+  if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
+  json["skipped"] = summary.skipped;
+  return json;
+}
+
+/// An object of the file, with its place in it for the messages.
+class Object {
+ public:
+  Object(const std::filesystem::path& file, std::string place, const Json& json)
+      : file_(file), place_(std::move(place)), json_(json) {
+    if (!json.is_object()) fail("must be an object", json);
+  }
+
+  const Json& at(const std::string& key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) throw ReadError(file_, fmt::format("key '{}' is missing", place_of(key)));
+    return *found;
+  }
+  bool has(const std::string& key) const { return json_.contains(key); }
+  Object object(const std::string& key) const { return {file_, place_of(key), at(key)}; }
+
+  std::string text(const std::string& key) const {
+    const auto& value = at(key);
+    if (!value.is_string()) fail(key, "must be a string", value);
+    return value.get<std::string>();
+  }
+
+  bool truth(const std::string& key) const {
+    const auto& value = at(key);
+    if (!value.is_boolean()) fail(key, "must be true or false", value);
+    return value.get<bool>();
+  }
+
+  template <std::integral Integer>
+  Integer integer(const std::string& key) const {
+    const auto& value = at(key);
+    const bool fits = value.is_number_integer() && value.get<double>() >= 0 &&
+                      value.get<double>() <= static_cast<double>(std::numeric_limits<Integer>::max() / 2);
+    if (!fits) fail(key, "must be a whole number, not negative", value);
+    return value.get<Integer>();
+  }
+
+  double number(const std::string& key) const {
+    const auto& value = at(key);
+    if (value.is_number()) return value.get<double>();
+    if (!value.is_null()) fail(key, "must be a number or null", value);
+    const auto why = text(reason_key(key));
+    for (const auto& [infinite, name] : infinite_reasons) {
+      if (why == name) return infinite;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  std::pair<double, double> position(const std::string& key) const {
+    const auto& value = at(key);
+    const bool valid = value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+    if (!valid) fail(key, "must be two numbers, [x, y]", value);
+    return {value[0].get<double>(), value[1].get<double>()};
+  }
+
+  std::vector<std::string> keys() const {
+    std::vector<std::string> result;
+    for (const auto& entry : json_.items()) result.push_back(entry.key());
+    return result;
+  }
+
+  /// Whether the key is the reason of a null beside it.
+  bool is_reason(const std::string& key) const {
+    for (const auto& entry : json_.items()) {
+      if (entry.value().is_null() && key == reason_key(entry.key())) return true;
+    }
+    return false;
+  }
+
+  [[noreturn]] void fail(const std::string& key, std::string_view rule, const Json& value) const {
+    Object::fail(file_, place_of(key), rule, value);
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view rule, const Json& value) const { fail(file_, place_, rule, value); }
+  [[noreturn]] static void fail(const std::filesystem::path& file, const std::string& place,
+                                std::string_view rule, const Json& value) {
+    throw ReadError(file, fmt::format("{}: {}, not {}", place.empty() ? "the file" : "key '" + place + "'",
+                                      rule, value.is_structured() ? value.type_name() : value.dump()));
+  }
+  std::string place_of(const std::string& key) const { return place_.empty() ? key : place_ + "." + key; }
+
+  const std::filesystem::path& file_;
+  std::string place_;
+  const Json& json_;
+};
+
+RunStatus status_from(const Object& json) {
+  const auto text = json.text("status");
+  for (const auto& [status, name] : status_names) {
+    if (text == name) return status;
+  }
+  json.fail("status", "must be completed, equilibrium, unstable or interrupted", json.at("status"));
+}
+
+Summary::Probe probe_from(const Object& json) {
+  Summary::Probe probe;
+  std::tie(probe.x, probe.y) = json.position("position");
+  const auto values = json.object("values");
+  for (const auto& quantity : values.keys()) {
+    if (!values.is_reason(quantity)) probe.values[quantity] = values.number(quantity);
+  }
+  return probe;
+}
+
+Summary summary_from(const Object& json) {
+  Summary summary;
+  summary.title = json.text("title");
+  summary.status = status_from(json);
+  summary.message = json.text("message");
+  summary.particles = json.integer<std::int64_t>("particles");
+  summary.steps = json.integer<std::int64_t>("steps");
+  summary.time = json.number("time");
+  summary.time_step = json.number("time_step");
+  summary.threads = json.integer<int>("threads");
+  summary.wall_seconds = json.number("wall_seconds");
+  summary.stepping_seconds = json.number("stepping_seconds");
+  summary.particle_steps_per_second = json.number("particle_steps_per_second");
+  summary.peak_memory_bytes = json.integer<std::int64_t>("peak_memory_bytes");
+  summary.formulation = json.text("formulation");
+  summary.kernel_correction = json.truth("kernel_correction");
+  summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");
+  const auto probes = json.object("probes");
+  for (const auto& name : probes.keys()) summary.probes[name] = probe_from(probes.object(name));
+  if (json.has("errors")) {
+    const auto errors = json.object("errors");
+    for (const auto& field : errors.keys()) {
+      const auto norms = errors.object(field);
+      summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
+    }
+  }
+  const auto skipped = json.object("skipped");
+  for (const auto& name : skipped.keys()) summary.skipped[name] = skipped.text(name);
+  return summary;
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& file, const Summary& summary) {
+  // A message may quote a path that is not UTF-8: better with a replacement character than lost.
+  const auto text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace);
+  write_file(file, text + "\n");
+}
+
+Summary read_summary(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  try {
+    return summary_from(Object(file, "", Json::parse(text)));
+  } catch (const Json::exception& error) {
+    throw ReadError(file, error.what());
+  }
+}
+
+}  // namespace porosph

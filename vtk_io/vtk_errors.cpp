@@ -1,0 +1,29 @@
+#include "vtk_io/vtk_errors.hpp"
+
+#include <string_view>
+
+namespace porosph {
+namespace {
+
+/// "ERROR: In x.cxx, line 1\nvtkX (0x1): text\n\n" -> "text"
+std::string text_of(std::string_view message) {
+  constexpr std::string_view mark = "): ";
+  if (const auto prefix = message.find(mark); prefix != message.npos)
+    message.remove_prefix(prefix + mark.size());
+  return std::string(message.substr(0, message.find('\n')));
+}
+
+}  // namespace
+
+void VtkErrors::watch(vtkObject& object) {
+  object.AddObserver(vtkCommand::ErrorEvent, this);
+  object.AddObserver(vtkCommand::WarningEvent, this);
+}
+
+void VtkErrors::Execute(vtkObject*, unsigned long event, void* data) {
+  if (event != vtkCommand::ErrorEvent || any_) return;
+  any_ = true;
+  if (data != nullptr) first_ = text_of(static_cast<const char*>(data));
+}
+
+}  // namespace porosph
