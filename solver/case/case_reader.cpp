@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uintmax_t largest_file = 16 << 20;  // bytes
 constexpr std::size_t most_points = 10000;         // of a polygon
+constexpr std::size_t most_tables = 1000;          // of a list
 
 bool is_name(const std::string& text) {
   const auto is_allowed = [](unsigned char c) {
@@ -142,8 +143,10 @@ class Reader : public Fields {
     const toml::node* node = find(key);
     if (!node) return;
     const toml::array* items = node->as_array();
-    if (!items || (key.is_required && items->empty()))
-      return fail_table(key, path(key), fmt::format("must be a list of tables: [[{}]]", key.name));
+    if (!items || (key.is_required && items->empty()) || items->size() > most_tables)
+      return fail_table(key, path(key),
+                        fmt::format("must be a list of tables [[{}]], at most {}{}", key.name, most_tables,
+                                    key.is_required ? ", at least one" : ""));
     for (std::size_t i = 0; i < items->size(); ++i) {
       const std::string at = fmt::format("{}[{}]", path(key), i);
       if (const toml::table* table = items->get(i)->as_table())
@@ -176,7 +179,7 @@ class Reader : public Fields {
     known_.emplace_back(key.name);
     const toml::node* node = table_->get(key.name);
     if (!node && key.is_required) fail(key, path(key), fmt::format("is missing: {}", key.meaning));
-    if (node && !key.is_used) {
+    if (node && !key.is_used) {  // unless the key that the condition begins with is wrong itself
       if (!failed_.contains(key.condition.substr(0, key.condition.find(' '))))
         fail(key, path(key), fmt::format("is used only with {}", key.condition));
       return nullptr;

@@ -80,11 +80,11 @@ std::string fault_of_pair(const BoundaryCase& a, const BoundaryCase& b, double t
   const double sine = u.x() * v.y() - u.y() * v.x();
   if (std::abs(u.dot(v)) < right) return "";
   if (std::abs(sine) > right)
-    return fmt::format("meets it at an angle of {:.4g} degrees: must be a right angle or one line",
+    return fmt::format("at an angle of {:.4g} degrees: must be a right angle or one line",
                        std::atan2(std::abs(sine), std::abs(u.dot(v))) * 180 / M_PI);
   const double b0 = u.dot(b.from - a.from), b1 = u.dot(b.to - a.from), length = (a.to - a.from).norm();
   const double common = std::min(length, std::max(b0, b1)) - std::max(0., std::min(b0, b1));
-  return common > tolerance ? fmt::format("both cover the same {:.4g} m", common) : "";
+  return common > tolerance ? fmt::format("along {:.4g} m: must be one or the other", common) : "";
 }
 
 // Soils of one body have the same number: the smallest index among them.
@@ -139,11 +139,14 @@ std::vector<CaseIssue> check_boundaries(const Case& c) {
   for (std::size_t i = 0; i < c.boundaries.size(); ++i) {
     const std::string fault = fault_along(c, c.boundaries[i], tolerance);
     if (!fault.empty()) issues.push_back({name(i), fault});
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::string pair_fault = fault_of_pair(c.boundaries[j], c.boundaries[i], tolerance);
-      if (!pair_fault.empty()) issues.push_back({name(i), fmt::format("with {}: {}", name(j), pair_fault)});
-    }
   }
+  if (!issues.empty()) return issues;
+
+  for (std::size_t i = 0; i < c.boundaries.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::string fault = fault_of_pair(c.boundaries[j], c.boundaries[i], tolerance);
+      if (!fault.empty()) issues.push_back({name(i), fmt::format("meets {} {}", name(j), fault)});
+    }
   if (c.loading.gravity_applied && issues.empty()) issues = unsupported(c, tolerance);
   return issues;
 }

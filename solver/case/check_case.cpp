@@ -145,7 +145,9 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   if (!issues.empty()) return issues;
   check_size(c, issues);
   check_soils(c, issues);
+  const bool soils_are_sound = issues.empty();
   check_probes(c, issues);
+  if (!soils_are_sound) return issues;
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
   if (c.reference == Reference::column && of_boundaries.empty()) {

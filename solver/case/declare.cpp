@@ -74,7 +74,8 @@ void declare(Fields& f, Case& c) {
 }
 
 void declare(Fields& f, ParticlesCase& c) {
-  f.number(Key("spacing", "m", "Distance of neighbouring particles, dx.").required(), c.spacing, above(0));
+  f.number(Key("spacing", "m", "Distance of neighbouring particles, dx.").required(), c.spacing,
+           above(0, farthest));
   f.number(Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx."), c.smoothing_ratio,
            between(0.8, 3));
   f.choice(
@@ -96,7 +97,8 @@ void declare(Fields& f, SoilCase& c) {
   f.polygon(Key("polygon", "m", "Outline, last point not repeated, either orientation.").required(),
             c.polygon);
   f.polygons(Key("holes", "m", "Outlines inside the polygon that are left free."), c.holes);
-  f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus, above(0));
+  f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus,
+           above(0, stiffest));
   f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
            {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
   f.number(Key("unit_weight_saturated", "N/m3", "Of the soil below water.").required(),
@@ -104,7 +106,7 @@ void declare(Fields& f, SoilCase& c) {
   f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
   f.number(Key("unit_weight_unsaturated", "N/m3", "Of the soil above water; not more than saturated.")
                .otherwise("as saturated"),
-           c.unit_weight_unsaturated, above(0));
+           c.unit_weight_unsaturated, above(0, heaviest));
   if (c.unit_weight_unsaturated > c.unit_weight_saturated)
     f.reject("unit_weight_unsaturated",
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
@@ -113,7 +115,7 @@ void declare(Fields& f, SoilCase& c) {
 }
 
 void declare(Fields& f, WaterCase& c) {
-  f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0));
+  f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0, heaviest));
   double level = level_everywhere(c) ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
   f.number(Key("level", "m", "y of the free surface, the same everywhere.").otherwise("see `stretches`"),
@@ -197,13 +199,13 @@ void declare(Fields& f, LoadingCase& c) {
   f.number(Key("damping_until", "s", "When the damping ends.")
                .only_if(c.damping > 0, "damping > 0")
                .otherwise("never"),
-           c.damping_until, above(0));
+           c.damping_until, above(0, longest));
 }
 
 void declare(Fields& f, TimeCase& c) {
-  f.number(Key("end", "s", "When the run ends.").required(), c.end, above(0));
+  f.number(Key("end", "s", "When the run ends.").required(), c.end, above(0, longest));
   f.number(Key("courant", "", "dt = courant * h / c_p, c_p the fastest compression wave."), c.courant,
-           {.min = 0, .max = 10, .min_included = false});
+           above(0, 10));
 }
 
 void declare(Fields& f, StopCase& c) {
@@ -215,9 +217,9 @@ void declare(Fields& f, StopCase& c) {
 
 void declare(Fields& f, OutputCase& c) {
   static const std::vector<std::string> known = OutputCase{}.fields;
-  f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, at_least(0));
+  f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, between(0, longest));
   f.number(Key("history_interval", "s", "Between rows of the history; 0: every step."), c.history_interval,
-           at_least(0));
+           between(0, longest));
   f.words(Key("fields", "", "Particle data of the frames."), c.fields, known);
 }
 

@@ -41,10 +41,13 @@ struct Range {
   }
   std::string text() const;  ///< "> 0 and <= 3"; "any" without limits
 };
-inline Range above(double min) { return {.min = min, .min_included = false}; }
-inline Range at_least(double min) { return {.min = min}; }
+inline Range above(double min, double max) { return {.min = min, .max = max, .min_included = false}; }
 inline Range between(double min, double max) { return {.min = min, .max = max}; }
-inline constexpr double farthest = 1e6;  ///< largest coordinate [m]: products of lengths stay exact enough
+// Far beyond any use, yet products of such numbers are finite.
+inline constexpr double farthest = 1e6;   ///< coordinate [m]
+inline constexpr double stiffest = 1e15;  ///< Young's modulus [Pa]
+inline constexpr double heaviest = 1e9;   ///< unit weight [N/m3]
+inline constexpr double longest = 1e9;    ///< time [s]
 
 class Fields;
 void declare(Fields&, Case&);

@@ -100,7 +100,7 @@ void Report::add(const std::string& key, std::string_view message) {
 }
 
 void Report::add(const std::string& key, std::string_view message, toml::source_position at) {
-  if (at.line == 0) return add(key, message);
+  if (at.line == 0 || override_of(key)) return add(key, message);
   errors_.push_back({at, fmt::format("{}: key '{}': {}", place(file_, at), key, message)});
 }
 

@@ -8,6 +8,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/geometries/segment.hpp>
+#include <optional>
 
 namespace porosph {
 namespace {
@@ -33,9 +34,8 @@ BoostPolygon boost_polygon(const SoilCase& soil) { return boost_polygon(soil.pol
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// A point where an outline without repeated points touches itself: a fold back at a corner, or edges that
-// meet.
-Point self_contact(const Polygon& p) {
+// Where an outline without repeated points touches itself: a fold back at a corner, or edges that meet.
+std::optional<Point> self_contact(const Polygon& p) {
   const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Point in = p[(i + 1) % n] - p[i], out = p[(i + 2) % n] - p[(i + 1) % n];
@@ -47,7 +47,13 @@ Point self_contact(const Polygon& p) {
       const auto points = crossings(p[i], p[i + 1], p[j], p[(j + 1) % n]);
       if (!points.empty()) return points.front();
     }
-  return p[0];
+  return std::nullopt;
+}
+
+bool is_flat(const Polygon& p) {
+  return std::all_of(p.begin(), p.end(), [&](const Point& q) {
+    return std::abs(cross(p[1] - p[0], q - p[0])) <= 1e-12 * (p[1] - p[0]).norm() * (q - p[0]).norm();
+  });
 }
 
 }  // namespace
@@ -57,20 +63,12 @@ std::string outline_fault(const Polygon& outline) {
     if (outline[i] == outline[(i + 1) % outline.size()])
       return i + 1 < outline.size() ? fmt::format("points {} and {} (from 0) are the same", i, i + 1)
                                     : std::string("its last point repeats the first: leave it out");
-  const BoostPolygon polygon = boost_polygon(outline);
-  const double length = static_cast<double>(bg::perimeter(polygon));
-  bg::validity_failure_type failure{};
-  const bool is_valid = bg::is_valid(polygon, failure);
-  if (!is_valid && failure == bg::failure_self_intersections) {
-    const Point at = self_contact(outline);
-    return fmt::format("crosses or touches itself at ({}, {})", at.x(), at.y());
-  }
-  if (!(bg::area(polygon) > 1e-12 * length * length)) return "has no area";
-  if (!is_valid && failure == bg::failure_spikes) {
-    const Point at = self_contact(outline);
-    return fmt::format("folds back on itself at ({}, {})", at.x(), at.y());
-  }
-  return is_valid ? "" : bg::validity_failure_type_message(failure);
+  if (is_flat(outline)) return "has no area: its points lie in one line";
+  std::string message;
+  if (bg::is_valid(boost_polygon(outline), message)) return "";
+  const auto contact = self_contact(outline);
+  return contact ? fmt::format("crosses or touches itself at ({:.6g}, {:.6g})", contact->x(), contact->y())
+                 : message;
 }
 
 std::string holes_fault(const SoilCase& soil) {
