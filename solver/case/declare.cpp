@@ -26,8 +26,8 @@ bool level_everywhere(const WaterCase& c) {
 }  // namespace
 
 std::string Range::text() const {
-  const std::string low = min == -never ? "" : fmt::format("{} {}", min_included ? ">=" : ">", min);
-  const std::string high = max == never ? "" : fmt::format("{} {}", max_included ? "<=" : "<", max);
+  const std::string low = min == -never ? "" : fmt::format("{} {:.10g}", min_included ? ">=" : ">", min);
+  const std::string high = max == never ? "" : fmt::format("{} {:.10g}", max_included ? "<=" : "<", max);
   if (low.empty() && high.empty()) return "any";
   return low + (low.empty() || high.empty() ? "" : " and ") + high;
 }
@@ -102,7 +102,7 @@ void declare(Fields& f, SoilCase& c) {
   f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
            {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
   f.number(Key("unit_weight_saturated", "N/m3", "Of the soil below water.").required(),
-           c.unit_weight_saturated, above(0));
+           c.unit_weight_saturated, above(0, heaviest));
   f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
   f.number(Key("unit_weight_unsaturated", "N/m3", "Of the soil above water; not more than saturated.")
                .otherwise("as saturated"),
@@ -185,7 +185,7 @@ void declare(Fields& f, FormulationCase& c) {
 
 void declare(Fields& f, LoadingCase& c) {
   f.number(Key("gravity", "m/s2", "g, downwards; it also turns unit weights into densities."), c.gravity,
-           above(0));
+           above(0, 1e6));
   f.flag(Key("gravity_applied", "", "`false`: a weightless scene."), c.gravity_applied);
   f.flag(Key("k0_stress", "", "Whether to start from the K0 stress instead of none.")
              .only_if(c.gravity_applied, "gravity_applied = true"),
