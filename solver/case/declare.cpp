@@ -26,8 +26,8 @@ bool level_everywhere(const WaterCase& c) {
 }  // namespace
 
 std::string Range::text() const {
-  const std::string low = min == -never ? "" : fmt::format("{} {:.10g}", min_included ? ">=" : ">", min);
-  const std::string high = max == never ? "" : fmt::format("{} {:.10g}", max_included ? "<=" : "<", max);
+  const std::string low = min == -never ? "" : fmt::format("{} {:.6g}", min_included ? ">=" : ">", min);
+  const std::string high = max == never ? "" : fmt::format("{} {:.6g}", max_included ? "<=" : "<", max);
   if (low.empty() && high.empty()) return "any";
   return low + (low.empty() || high.empty() ? "" : " and ") + high;
 }
@@ -89,7 +89,7 @@ void declare(Fields& f, ParticlesCase& c) {
            c.disorder, between(0, 0.5));
   f.integer(
       Key("seed", "", "Of the random displacements.").only_if(disordered, "arrangement = \"disordered\""),
-      c.seed, between(0, std::numeric_limits<int>::max()));
+      c.seed, between(0, 999999));
 }
 
 void declare(Fields& f, SoilCase& c) {
