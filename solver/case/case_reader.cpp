@@ -1,0 +1,329 @@
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "solver/case/case_file.hpp"
+#include "solver/case/check_case.hpp"
+#include "solver/case/fields.hpp"
+#include "solver/case/overrides.hpp"
+#include "solver/case/report.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr std::uintmax_t largest_file = 16 << 20;  // bytes
+constexpr std::size_t most_points = 10000;         // of a polygon
+constexpr std::size_t most_tables = 1000;          // of a list
+
+bool is_name(const std::string& text) {
+  const auto is_allowed = [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) || c == '_' || c == '-');
+  };
+  return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), is_allowed);
+}
+
+std::string quoted(std::span<const std::string_view> words) {
+  return fmt::format("\"{}\"", fmt::join(words, "\", \""));
+}
+
+/// Sets declared values from a table and reports what is wrong with them.
+class Reader : public Fields {
+ public:
+  Reader(const toml::table& root, Report& report) : table_(&root), report_(report) {}
+
+  void read(Case& scene) {
+    declare(*this, scene);
+    report_unknown();
+  }
+  bool lengths_are_right() const { return lengths_are_right_; }
+
+  void number(const Key& key, double& value, const Range& range) override {
+    if (const toml::node* node = find(key))
+      if (const auto x = number_of(key, path(key), *node)) {
+        if (range.contains(*x))
+          value = *x;
+        else
+          fail(key, path(key), fmt::format("must be {}{}", range.text(), unit(key)));
+      }
+  }
+
+  void integer(const Key& key, int& value, const Range& range) override {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const auto x = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (x && range.contains(static_cast<double>(*x)))
+      value = static_cast<int>(*x);
+    else
+      fail(key, path(key), fmt::format("must be a whole number {}", range.text()));
+  }
+
+  void flag(const Key& key, bool& value) override { scalar(key, value, "true or false"); }
+  void text(const Key& key, std::string& value) override { scalar(key, value, "text"); }
+
+  void name(const Key& key, std::string& value) override {
+    std::string given;
+    if (scalar(key, given, "text")) {
+      if (is_name(given))
+        value = given;
+      else
+        fail(key, path(key), "must be 1 to 40 letters (a-z, A-Z), digits, '_' or '-'");
+    }
+  }
+
+  void words(const Key& key, std::vector<std::string>& values,
+             std::span<const std::string> allowed) override {
+    const toml::array* items = array(key, "a list of text");
+    if (!items) return;
+    values.clear();
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      const auto word = items->get(i)->value<std::string>();
+      if (!word || std::find(allowed.begin(), allowed.end(), *word) == allowed.end()) {
+        const std::string meant = nearest(word.value_or(""), {allowed.begin(), allowed.end()});
+        fail(key, at, fmt::format("must be one of {}{}", fmt::join(allowed, ", "), did_you_mean(meant)));
+      } else if (std::find(values.begin(), values.end(), *word) != values.end()) {
+        fail(key, at, "is given twice");
+      } else {
+        values.push_back(*word);
+      }
+    }
+  }
+
+  void point(const Key& key, Point& value) override {
+    if (const toml::node* node = find(key)) read_point(key, path(key), *node, value);
+  }
+
+  void polygon(const Key& key, Polygon& value) override {
+    if (const toml::node* node = find(key)) read_polygon(key, path(key), *node, value);
+  }
+
+  void polygons(const Key& key, std::vector<Polygon>& values) override {
+    const toml::array* items = array(key, "a list of polygons");
+    if (!items) return;
+    values.resize(items->size());
+    for (std::size_t i = 0; i < items->size(); ++i)
+      read_polygon(key, fmt::format("{}[{}]", path(key), i), *items->get(i), values[i]);
+  }
+
+  void set_defaults(const std::function<void()>& set) override { set(); }
+
+  void reject(std::string_view key, const std::string& message) override {
+    if (!failed_.empty()) return;  // a consequence, maybe
+    report_.add(key.empty() ? path_ : path_ + "." + std::string(key), message);
+    failed_.insert(std::string(key));
+  }
+
+ protected:
+  void one_of(const Key& key, int& index, std::span<const std::string_view> names) override {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const auto word = node->value<std::string>();
+    const auto found = std::find(names.begin(), names.end(), word.value_or(""));
+    if (found == names.end())
+      fail(key, path(key),
+           fmt::format("must be one of {}{}", quoted(names),
+                       did_you_mean(nearest(word.value_or(""), {names.begin(), names.end()}))));
+    else
+      index = static_cast<int>(found - names.begin());
+  }
+
+  void section(const Key& key, bool present, const std::function<void()>& contents) override {
+    static const toml::table empty;
+    const toml::node* node = find(key);
+    if (!node && present) within(empty, path(key), contents);
+    if (!node) return;
+    if (const toml::table* table = node->as_table())
+      within(*table, path(key), contents);
+    else
+      fail_table(key, path(key), fmt::format("must be a table: [{}]", key.name));
+  }
+
+  void list(const Key& key, std::size_t, const std::function<void(std::size_t)>& item) override {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const toml::array* items = node->as_array();
+    if (!items || (key.is_required && items->empty()) || items->size() > most_tables)
+      return fail_table(key, path(key),
+                        fmt::format("must be a list of tables [[{}]], at most {}{}", key.name, most_tables,
+                                    key.is_required ? ", at least one" : ""));
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      if (const toml::table* table = items->get(i)->as_table())
+        within(*table, at, [&] { item(i); });
+      else
+        fail_table(key, at, "must be a table");
+    }
+  }
+
+ private:
+  std::string path(const Key& key) const {
+    return path_ + (path_.empty() ? "" : ".") + std::string(key.name);
+  }
+  static std::string unit(const Key& key) { return key.unit.empty() ? "" : fmt::format(" {}", key.unit); }
+  static std::string did_you_mean(const std::string& word) {
+    return word.empty() ? "" : fmt::format("; did you mean '{}'?", word);
+  }
+
+  void fail(const Key& key, const std::string& at, const std::string& message) {
+    report_.add(at, message);
+    failed_.insert(std::string(key.name));
+    if (key.unit == "m") lengths_are_right_ = false;
+  }
+  void fail_table(const Key& key, const std::string& at, const std::string& message) {
+    fail(key, at, message);
+    lengths_are_right_ = false;
+  }
+
+  const toml::node* find(const Key& key) {
+    known_.emplace_back(key.name);
+    const toml::node* node = table_->get(key.name);
+    if (!node && key.is_required) fail(key, path(key), fmt::format("is missing: {}", key.meaning));
+    if (node && !key.is_used) {  // unless the key that the condition begins with is wrong itself
+      if (!failed_.contains(key.condition.substr(0, key.condition.find(' '))))
+        fail(key, path(key), fmt::format("is used only with {}", key.condition));
+      return nullptr;
+    }
+    return node;
+  }
+
+  const toml::array* array(const Key& key, std::string_view type) {
+    const toml::node* node = find(key);
+    if (node && !node->is_array()) fail(key, path(key), fmt::format("must be {}", type));
+    return node ? node->as_array() : nullptr;
+  }
+
+  template <class T>
+  bool scalar(const Key& key, T& value, std::string_view type) {
+    const toml::node* node = find(key);
+    if (!node) return false;
+    const auto given = node->is<T>() ? node->value<T>() : std::nullopt;
+    if (given)
+      value = *given;
+    else
+      fail(key, path(key), fmt::format("must be {}", type));
+    return given.has_value();
+  }
+
+  std::optional<double> number_of(const Key& key, const std::string& at, const toml::node& node) {
+    const auto x = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!x)
+      fail(key, at, fmt::format("must be a number{}{}", key.unit.empty() ? "" : " in", unit(key)));
+    else if (!std::isfinite(*x))
+      fail(key, at, "must be finite");
+    else
+      return x;
+    return std::nullopt;
+  }
+
+  bool read_point(const Key& key, const std::string& at, const toml::node& node, Point& value) {
+    const toml::array* xy = node.as_array();
+    if (!xy || xy->size() != 2) {
+      fail(key, at, fmt::format("must be two numbers [x, y] in{}", unit(key)));
+      return false;
+    }
+    for (int i = 0; i < 2; ++i) {
+      const std::string here = fmt::format("{}[{}]", at, i);
+      const auto x = number_of(key, here, (*xy)[static_cast<std::size_t>(i)]);
+      if (!x) return false;
+      const Range range = between(-farthest, farthest);
+      if (!range.contains(*x))
+        return fail(key, here, fmt::format("must be {}{}", range.text(), unit(key))), false;
+      value[i] = *x;
+    }
+    return true;
+  }
+
+  void read_polygon(const Key& key, const std::string& at, const toml::node& node, Polygon& value) {
+    const toml::array* points = node.as_array();
+    if (!points || points->size() < 3 || points->size() > most_points)
+      return fail(key, at, fmt::format("must be a list of 3 to {} points [x, y]", most_points));
+    value.assign(points->size(), Point::Zero());
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (!read_point(key, fmt::format("{}[{}]", at, i), *points->get(i), value[i])) return;
+  }
+
+  // Reads the contents of an inner table, then comes back to this one.
+  void within(const toml::table& inner, const std::string& at, const std::function<void()>& contents) {
+    const toml::table* outer = std::exchange(table_, &inner);
+    std::string outer_path = std::exchange(path_, at);
+    auto outer_known = std::exchange(known_, {});
+    auto outer_failed = std::exchange(failed_, {});
+    contents();
+    report_unknown();
+    table_ = outer;
+    path_ = std::move(outer_path);
+    known_ = std::move(outer_known);
+    failed_ = std::move(outer_failed);
+  }
+
+  void report_unknown() {
+    for (const auto& [key, node] : *table_) {
+      const std::string word(key.str());
+      if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
+      const std::string meant = nearest(word, known_);
+      report_.add(path_ + (path_.empty() ? "" : ".") + word,
+                  "is not known" + (meant.empty() ? fmt::format("; known are {}", fmt::join(known_, ", "))
+                                                  : did_you_mean(meant)),
+                  key.source().begin);
+    }
+  }
+
+  const toml::table* table_;
+  Report& report_;
+  std::string path_;                // of table_
+  std::vector<std::string> known_;  // keys of table_ declared so far
+  std::set<std::string> failed_;    // keys of table_ that are wrong
+  bool lengths_are_right_ = true;
+};
+
+toml::table parse_toml(std::string_view text, std::string_view file_name) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw CaseError(fmt::format("{}: {}", place(file_name, error.source().begin), error.description()));
+  }
+}
+
+}  // namespace
+
+Case parse_case(std::string_view text, std::string_view file_name,
+                const std::vector<std::string>& overrides) {
+  if (text.size() > largest_file)
+    throw CaseError(
+        fmt::format("{}: has {} bytes; at most {} are read", file_name, text.size(), largest_file));
+  toml::table root = parse_toml(text, file_name);
+  std::vector<std::string> wrong_overrides;
+  const std::vector<Override> applied = apply_overrides(root, overrides, wrong_overrides);
+
+  Case scene;
+  Report report(file_name, root, applied);
+  Reader reader(root, report);
+  reader.read(scene);
+  for (const CaseIssue& issue : check_settings(scene)) report.add(issue.key, issue.message);
+  if (reader.lengths_are_right())
+    for (const CaseIssue& issue : check_geometry(scene)) report.add(issue.key, issue.message);
+
+  std::string errors = report.text();
+  for (const std::string& error : wrong_overrides) errors += (errors.empty() ? "" : "\n") + error;
+  if (!errors.empty()) throw CaseError(errors);
+  return scene;
+}
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const std::string name = file.string();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw CaseError(
+        fmt::format("{}: is no file that can be read{}", name, error ? ": " + error.message() : ""));
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > largest_file)
+    throw CaseError(fmt::format("{}: has {} bytes; at most {} are read", name, size, largest_file));
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(error ? 0 : size, '\0');
+  if (error || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw CaseError(fmt::format("{}: cannot be read", name));
+  return parse_case(text, name, overrides);
+}
+
+}  // namespace porosph

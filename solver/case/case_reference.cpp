@@ -1,0 +1,89 @@
+#include "solver/case/case_file.hpp"
+#include "solver/case/fields.hpp"
+
+namespace porosph {
+namespace {
+
+std::string code(const std::string& text) { return "`" + text + "`"; }
+
+std::string names(std::span<const std::string_view> words) {
+  return fmt::format("`{}`", fmt::join(words, "`, `"));
+}
+
+/// Writes a Markdown table of the declared keys for each TOML table.
+class Documenter : public Fields {
+ public:
+  std::string finished() { return head_ + table_ + inner_; }
+  explicit Documenter(std::string head) : head_(std::move(head)) {}
+
+  void number(const Key& key, double& value, const Range& range) override {
+    row(key, "number", fmt::to_string(value), range.text());
+  }
+  void integer(const Key& key, int& value, const Range& range) override {
+    row(key, "whole number", fmt::to_string(value), range.text());
+  }
+  void flag(const Key& key, bool& value) override {
+    row(key, "truth", value ? "true" : "false", "`true`, `false`");
+  }
+  void text(const Key& key, std::string&) override { row(key, "text", "\"\"", "any"); }
+  void name(const Key& key, std::string&) override { row(key, "text", "", "letters, digits, `_`, `-`"); }
+  void words(const Key& key, std::vector<std::string>&, std::span<const std::string> allowed) override {
+    row(key, "list of text", "all", fmt::format("`{}`", fmt::join(allowed, "`, `")));
+  }
+  void point(const Key& key, Point& value) override {
+    row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");
+  }
+  void polygon(const Key& key, Polygon&) override {
+    row(key, "polygon", "", "[[x, y], ...], 3 points or more");
+  }
+  void polygons(const Key& key, std::vector<Polygon>&) override {
+    row(key, "list of polygons", "[]", "[[[x, y], ...], ...]");
+  }
+
+ protected:
+  void one_of(const Key& key, int& index, std::span<const std::string_view> allowed) override {
+    row(key, "text", std::string(allowed[static_cast<std::size_t>(index)]), names(allowed));
+  }
+  void section(const Key& key, bool, const std::function<void()>& contents) override {
+    block(key, "[{}]", contents);
+  }
+  void list(const Key& key, std::size_t, const std::function<void(std::size_t)>& item) override {
+    block(key, "[[{}]]", [&] { item(0); });
+  }
+
+ private:
+  void row(const Key& key, std::string_view type, const std::string& value, const std::string& allowed) {
+    if (table_.empty())
+      table_ = "\n| key | type | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n";
+    std::string otherwise = key.fallback.empty() ? code(value) : key.fallback;
+    if (key.is_required) otherwise = "required";
+    const std::string condition =
+        key.condition.empty() ? "" : fmt::format(" Only with {}.", code(key.condition));
+    table_ += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", key.name, type, key.unit, otherwise,
+                          allowed, key.meaning, condition);
+  }
+  // A table of its own, set after the one that it is part of.
+  void block(const Key& key, fmt::string_view header, const std::function<void()>& contents) {
+    const std::string path = path_ + (path_.empty() ? "" : ".") + std::string(key.name);
+    Documenter part(fmt::format("\n### `{}`\n\n{}{}\n", fmt::format(fmt::runtime(header), path), key.meaning,
+                                key.is_required ? " Required." : ""));
+    part.path_ = path;
+    std::swap(part, *this);
+    contents();
+    std::swap(part, *this);
+    inner_ += part.finished();
+  }
+
+  std::string path_, head_, table_, inner_;
+};
+
+}  // namespace
+
+std::string describe_case_format() {
+  Documenter documenter("### Top level\n");
+  Case defaults;
+  declare(documenter, defaults);
+  return documenter.finished();
+}
+
+}  // namespace porosph

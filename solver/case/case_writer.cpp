@@ -1,0 +1,85 @@
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "solver/case/case_file.hpp"
+#include "solver/case/fields.hpp"
+
+namespace porosph {
+namespace {
+
+std::string toml_text(const std::string& text) {
+  std::ostringstream out;
+  const toml::value<std::string> value(text);
+  out << toml::toml_formatter(value, toml::format_flags::none);  // none: on one line, with escapes
+  return out.str();
+}
+
+std::string toml_text(const Point& p) { return fmt::format("[{}, {}]", p.x(), p.y()); }
+
+template <class T>
+std::string toml_text(const std::vector<T>& values) {
+  std::string list;
+  for (const T& value : values) list += (list.empty() ? "" : ", ") + toml_text(value);
+  return "[" + list + "]";
+}
+
+/// Writes declared values that are used, each with its unit or meaning beside it.
+class Writer : public Fields {
+ public:
+  std::string result;
+
+  void number(const Key& key, double& value, const Range& range) override {
+    if (range.contains(value) && value < never)
+      line(key, fmt::format("{}", value));
+    else if (key.is_used)
+      result += fmt::format("# {} is not set: {}\n", key.name, key.fallback);
+  }
+  void integer(const Key& key, int& value, const Range&) override { line(key, fmt::to_string(value)); }
+  void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
+  void text(const Key& key, std::string& value) override { line(key, toml_text(value)); }
+  void name(const Key& key, std::string& value) override { line(key, toml_text(value)); }
+  void words(const Key& key, std::vector<std::string>& values, std::span<const std::string>) override {
+    line(key, toml_text(values));
+  }
+  void point(const Key& key, Point& value) override { line(key, toml_text(value)); }
+  void polygon(const Key& key, Polygon& value) override { line(key, toml_text(value)); }
+  void polygons(const Key& key, std::vector<Polygon>& values) override { line(key, toml_text(values)); }
+
+ protected:
+  void one_of(const Key& key, int& index, std::span<const std::string_view> names) override {
+    line(key, fmt::format("\"{}\"", names[static_cast<std::size_t>(index)]));
+  }
+  void section(const Key& key, bool present, const std::function<void()>& contents) override {
+    if (present) block(key, "[{}]", contents);
+  }
+  void list(const Key& key, std::size_t size, const std::function<void(std::size_t)>& item) override {
+    for (std::size_t i = 0; i < size; ++i) block(key, "[[{}]]", [&] { item(i); });
+  }
+
+ private:
+  void line(const Key& key, const std::string& value) {
+    if (!key.is_used) return;
+    result += fmt::format("{} = {}", key.name, value);
+    result += key.unit.empty() ? "\n" : fmt::format("  # {}\n", key.unit);
+  }
+  void block(const Key& key, fmt::string_view header, const std::function<void()>& contents) {
+    const std::string outer =
+        std::exchange(path_, path_ + (path_.empty() ? "" : ".") + std::string(key.name));
+    result += "\n" + fmt::format(fmt::runtime(header), path_) + "\n";
+    contents();
+    path_ = outer;
+  }
+  std::string path_;
+};
+
+}  // namespace
+
+std::string write_case(const Case& scene) {
+  Writer writer;
+  Case copy = scene;  // declarations are the same for readers, which change what is declared
+  declare(writer, copy);
+  return writer.result;
+}
+
+}  // namespace porosph

@@ -1,0 +1,13 @@
+// Whether boundaries lie on the soils' outlines and meet each other properly.
+#pragma once
+
+#include <vector>
+
+#include "solver/case/check_case.hpp"
+
+namespace porosph {
+
+/// Issues of the boundaries, and of soils that none of them carries. Needs sound outlines.
+std::vector<CaseIssue> check_boundaries(const Case&);
+
+}  // namespace porosph

@@ -1,0 +1,160 @@
+#include "solver/case/check_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "solver/case/check_boundaries.hpp"
+#include "solver/case/shapes.hpp"
+
+namespace porosph {
+namespace {
+
+using Issues = std::vector<CaseIssue>;
+constexpr double bytes_per_particle = 1000;  // state, about 20 neighbours, their gradients
+constexpr double most_frames = 1e5;
+
+std::string at(std::string_view list, std::size_t i, std::string_view key = "") {
+  return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
+}
+
+template <class T>
+void check_names(const std::vector<T>& items, std::string_view list, Issues& issues) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!items[i].name.empty() && items[i].name == items[j].name) {
+        issues.push_back({at(list, i, "name"), fmt::format("is the name of {} too", at(list, j))});
+        break;
+      }
+}
+
+// Outlines by themselves: what follows relies on them.
+void check_outlines(const Case& c, Issues& issues) {
+  for (std::size_t i = 0; i < c.soils.size(); ++i) {
+    const SoilCase& soil = c.soils[i];
+    const std::size_t before = issues.size();
+    const auto add = [&](const std::string& key, const std::string& fault) {
+      if (!fault.empty()) issues.push_back({key, fault});
+    };
+    add(at("soil", i, "polygon"), outline_fault(soil.polygon));
+    for (std::size_t j = 0; j < soil.holes.size(); ++j)
+      add(at("soil", i, at("holes", j)), outline_fault(soil.holes[j]));
+    if (issues.size() == before) add(at("soil", i, "holes"), holes_fault(soil));
+  }
+}
+
+void check_soils(const Case& c, Issues& issues) {
+  const double dx = c.particles.spacing;
+  for (std::size_t i = 0; i < c.soils.size(); ++i) {
+    const double width = thickness(c.soils[i].polygon);
+    if (width < dx * (1 - 1e-9))
+      issues.push_back({at("soil", i, "polygon"),
+                        fmt::format("soil '{}' is {:.4g} m thick, less than particles.spacing = {} m",
+                                    c.soils[i].name, width, dx)});
+    for (std::size_t j = 0; j < i; ++j) {
+      const double common = overlap(c.soils[i], c.soils[j]);
+      if (common > 1e-6 * dx * dx)
+        issues.push_back({at("soil", i, "polygon"), fmt::format("soils '{}' and '{}' overlap by {:.4g} m2",
+                                                                c.soils[j].name, c.soils[i].name, common)});
+    }
+  }
+}
+
+void check_size(const Case& c, Issues& issues) {
+  const double total = std::accumulate(c.soils.begin(), c.soils.end(), 0.,
+                                       [](double sum, const SoilCase& soil) { return sum + area(soil); });
+  const double particles = total / (c.particles.spacing * c.particles.spacing);
+  if (!(particles <= most_particles))
+    issues.push_back(
+        {"particles.spacing",
+         fmt::format("makes {:.3g} particles, which need about {:.3g} GB of memory; at most {:.0e}",
+                     particles, particles * bytes_per_particle / 1e9, most_particles)});
+}
+
+void check_water(const Case& c, Issues& issues) {
+  const auto& stretches = c.water.stretches;
+  for (std::size_t i = 0; i < stretches.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::max(stretches[i].x_from, stretches[j].x_from) < std::min(stretches[i].x_to, stretches[j].x_to))
+        issues.push_back({at("water.stretches", i), fmt::format("overlaps {}", at("water.stretches", j))});
+}
+
+void check_probes(const Case& c, Issues& issues) {
+  for (std::size_t i = 0; i < c.probes.size(); ++i) {
+    const auto is_in = [&](const SoilCase& soil) {
+      return distance(c.probes[i].position, soil) <= 1e-6 * c.particles.spacing;
+    };
+    if (std::none_of(c.soils.begin(), c.soils.end(), is_in))
+      issues.push_back(
+          {at("probe", i, "position"),
+           fmt::format("({}, {}) is outside all soils", c.probes[i].position.x(), c.probes[i].position.y())});
+  }
+}
+
+// Whether a boundary of this kind covers the segment from a to b.
+bool is_covered(const Case& c, const Point& a, const Point& b, BoundaryKind kind) {
+  const double tolerance = 1e-3 * c.particles.spacing;
+  return std::any_of(c.boundaries.begin(), c.boundaries.end(), [&](const BoundaryCase& boundary) {
+    const auto reaches = [&](const Point& p) {
+      return distance(p, p, boundary.from, boundary.to) < tolerance;
+    };
+    return boundary.kind == kind && reaches(a) && reaches(b);
+  });
+}
+
+std::string column_fault(const Case& c) {
+  if (c.soils.size() != 1 || !c.soils[0].holes.empty()) return "needs one soil without holes";
+  const Polygon& p = c.soils[0].polygon;
+  Point low = p[0], high = p[0];
+  for (const Point& q : p) low = low.cwiseMin(q), high = high.cwiseMax(q);
+  const Point size = high - low;
+  if (std::abs(area(c.soils[0]) - size.x() * size.y()) > 1e-9 * size.x() * size.y())
+    return "needs a soil that is an upright rectangle";
+  if (!c.loading.gravity_applied) return "needs gravity";
+  if (c.water.present() && (c.water.stretches.size() > 1 || c.water.stretches[0].x_from > low.x() ||
+                            c.water.stretches[0].x_to < high.x()))
+    return "needs one water level over the whole soil";
+  const Point left_top(low.x(), high.y()), right_bottom(high.x(), low.y());
+  if (!is_covered(c, low, left_top, BoundaryKind::roller) ||
+      !is_covered(c, right_bottom, high, BoundaryKind::roller))
+    return "needs rollers along both sides of the soil";
+  if (!is_covered(c, low, right_bottom, BoundaryKind::roller) &&
+      !is_covered(c, low, right_bottom, BoundaryKind::fixed))
+    return "needs a boundary below the soil";
+  return "";
+}
+
+}  // namespace
+
+std::vector<CaseIssue> check_settings(const Case& c) {
+  Issues issues;
+  check_names(c.soils, "soil", issues);
+  check_names(c.probes, "probe", issues);
+  const double frames = c.output.interval > 0 ? c.time.end / c.output.interval : 0;
+  if (frames > most_frames)
+    issues.push_back(
+        {"output.interval", fmt::format("makes {:.3g} frames; at most {:.0e}", frames, most_frames)});
+  return issues;
+}
+
+std::vector<CaseIssue> check_geometry(const Case& c) {
+  Issues issues;
+  check_outlines(c, issues);
+  check_water(c, issues);
+  if (!issues.empty()) return issues;
+  check_size(c, issues);
+  check_soils(c, issues);
+  const bool soils_are_sound = issues.empty();
+  check_probes(c, issues);
+  if (!soils_are_sound) return issues;
+  const Issues of_boundaries = check_boundaries(c);
+  issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
+  if (c.reference == Reference::column && of_boundaries.empty()) {
+    const std::string fault = column_fault(c);
+    if (!fault.empty()) issues.push_back({"reference", fault});
+  }
+  return issues;
+}
+
+}  // namespace porosph

@@ -1,0 +1,231 @@
+// Every key of a case: name, unit, meaning, range. Defaults are those of the structs in case.hpp.
+#include <array>
+#include <cmath>
+
+#include "solver/case/case_file.hpp"
+#include "solver/case/fields.hpp"
+
+namespace porosph {
+namespace {
+
+using Names = std::string_view;
+constexpr std::array<Names, 3> arrangements{"lattice", "fitted", "disordered"};
+constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
+constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
+constexpr std::array<Names, 2> references{"none", "column"};
+
+std::string default_by_motion(double FormulationCase::*setting) {
+  return fmt::format("{} (consistent), {} (others)", default_formulation(Motion::consistent).*setting,
+                     default_formulation(Motion::proposed).*setting);
+}
+
+bool level_everywhere(const WaterCase& c) {
+  return c.stretches.size() == 1 && c.stretches[0].x_from == -never && c.stretches[0].x_to == never;
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  const std::string low = min == -never ? "" : fmt::format("{} {:.6g}", min_included ? ">=" : ">", min);
+  const std::string high = max == never ? "" : fmt::format("{} {:.6g}", max_included ? "<=" : "<", max);
+  if (low.empty() && high.empty()) return "any";
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+std::string_view motion_name(Motion motion) { return motions[static_cast<std::size_t>(motion)]; }
+
+// Strengths of the artificial terms as in Bui et al. 2008 (Int. J. Numer. Anal. Meth. Geomech. 32).
+FormulationCase default_formulation(Motion motion) {
+  FormulationCase c;
+  c.motion = motion;
+  if (motion == Motion::consistent) {
+    c.bulk_viscosity = 0.06;
+    c.zero_energy_control = 0.05;
+    c.refresh_strain = 1e-4;
+  } else {
+    c.artificial_viscosity_alpha = 0.1;
+    c.artificial_stress = 0.5;
+  }
+  return c;
+}
+
+void declare(Fields& f, Case& c) {
+  f.text(Key("title", "", "Shown on pictures and reports."), c.title);
+  f.choice(
+      Key("reference", "",
+          "Exact solution that the final state is compared with. `column`: one soil under level ground and "
+          "level water between two rollers."),
+      c.reference, references);
+  f.table(Key("particles", "", "How particles fill the soils."), c.particles);
+  f.tables(Key("soil", "", "A linear elastic soil: where it is and what it is.").required(), c.soils);
+  f.table(Key("water", "",
+              "Still water, with hydrostatic pressure below its level. Without this table all is dry."),
+          c.water, c.water.present());
+  f.tables(Key("boundary", "",
+               "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
+               "soil; boundaries that meet do so at a right angle or in one line."),
+           c.boundaries);
+  f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
+  f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
+  f.table(Key("time", "", "How far, and in which steps."), c.time);
+  f.table(Key("stop", "", "When a run ends before its time."), c.stop);
+  f.table(Key("output", "", "What is written, and when."), c.output);
+  f.tables(Key("probe", "", "A point of the soil whose history is recorded."), c.probes);
+}
+
+void declare(Fields& f, ParticlesCase& c) {
+  f.number(Key("spacing", "m", "Distance of neighbouring particles, dx.").required(), c.spacing,
+           above(0, farthest));
+  f.number(Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx."), c.smoothing_ratio,
+           between(0.8, 3));
+  f.choice(
+      Key("arrangement", "",
+          "`lattice`: square cells with their centre in the soil; `fitted`: cells clipped by the outline; "
+          "`disordered`: cells around randomly displaced points."),
+      c.arrangement, arrangements);
+  const bool disordered = c.arrangement == Arrangement::disordered;
+  f.number(Key("disorder", "", "Largest random displacement over spacing.")
+               .only_if(disordered, "arrangement = \"disordered\""),
+           c.disorder, between(0, 0.5));
+  f.integer(
+      Key("seed", "", "Of the random displacements.").only_if(disordered, "arrangement = \"disordered\""),
+      c.seed, between(0, 999999));
+}
+
+void declare(Fields& f, SoilCase& c) {
+  f.name(Key("name", "", "Unlike any other soil's.").required(), c.name);
+  f.polygon(Key("polygon", "m", "Outline, last point not repeated, either orientation.").required(),
+            c.polygon);
+  f.polygons(Key("holes", "m", "Outlines inside the polygon that are left free."), c.holes);
+  f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus,
+           above(0, stiffest));
+  f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
+           {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
+  f.number(Key("unit_weight_saturated", "N/m3", "Of the soil below water.").required(),
+           c.unit_weight_saturated, above(0, heaviest));
+  f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
+  f.number(Key("unit_weight_unsaturated", "N/m3", "Of the soil above water; not more than saturated.")
+               .otherwise("as saturated"),
+           c.unit_weight_unsaturated, above(0, heaviest));
+  if (c.unit_weight_unsaturated > c.unit_weight_saturated)
+    f.reject("unit_weight_unsaturated",
+             fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
+  f.flag(Key("no_tension", "", "Whether the mean effective stress is cut off at zero."), c.no_tension);
+  f.point(Key("velocity", "m/s", "At the start."), c.velocity);
+}
+
+void declare(Fields& f, WaterCase& c) {
+  f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0, heaviest));
+  double level = level_everywhere(c) ? c.stretches[0].level : never;
+  std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
+  f.number(Key("level", "m", "y of the free surface, the same everywhere.").otherwise("see `stretches`"),
+           level, between(-farthest, farthest));
+  f.tables(Key("stretches", "",
+               "A stretch of the free surface, in place of one `level`; soil outside all stretches "
+               "is dry."),
+           stretches);
+  if ((level < never) == !stretches.empty())
+    f.reject("", stretches.empty() ? "needs either 'level' or 'stretches'"
+                                   : "cannot have both 'level' and 'stretches'");
+  c.stretches = level < never ? std::vector<WaterStretch>{{-never, never, level}} : std::move(stretches);
+}
+
+void declare(Fields& f, WaterStretch& c) {
+  f.number(Key("x_from", "m", "Left end.").otherwise("no end"), c.x_from, between(-farthest, farthest));
+  f.number(Key("x_to", "m", "Right end.").otherwise("no end"), c.x_to, between(-farthest, farthest));
+  if (c.x_to <= c.x_from) f.reject("x_to", fmt::format("must be > x_from = {} m", c.x_from));
+  f.number(Key("level", "m", "y of the free surface.").required(), c.level, between(-farthest, farthest));
+}
+
+void declare(Fields& f, BoundaryCase& c) {
+  f.choice(Key("kind", "", "`roller`: free to slide along it; `fixed`: no motion.").required(), c.kind,
+           boundary_kinds);
+  f.point(Key("from", "m", "One end.").required(), c.from);
+  f.point(Key("to", "m", "The other end.").required(), c.to);
+}
+
+void declare(Fields& f, FormulationCase& c) {
+  f.choice(
+      Key("motion", "",
+          "Momentum equation. `conventional`: eq. (17), `proposed`: eq. (24), `rho_squared`: eq. (25) of the "
+          "paper; `consistent`: each stress with its own correction matrix."),
+      c.motion, motions);
+  f.set_defaults([&] { c = default_formulation(c.motion); });
+  f.flag(Key("kernel_correction", "", "Gradients exact for linear fields, eqs. (9) and (10)."),
+         c.kernel_correction);
+  const auto key = [](std::string_view name, std::string_view meaning, double FormulationCase::*setting) {
+    return Key(name, "", meaning).otherwise(default_by_motion(setting));
+  };
+  f.number(key("artificial_viscosity_alpha", "Linear term of the viscosity between pairs; 0: off.",
+               &FormulationCase::artificial_viscosity_alpha),
+           c.artificial_viscosity_alpha, between(0, 10));
+  f.number(Key("artificial_viscosity_beta", "", "Quadratic term of the viscosity between pairs; 0: off."),
+           c.artificial_viscosity_beta, between(0, 10));
+  f.number(key("artificial_stress", "Strength of the artificial stress against clumping; 0: off.",
+               &FormulationCase::artificial_stress),
+           c.artificial_stress, between(0, 1));
+
+  const bool consistent = c.motion == Motion::consistent;
+  const auto key_of_consistent = [&](std::string_view name, std::string_view meaning) {
+    return Key(name, "", meaning).only_if(consistent, "motion = \"consistent\"");
+  };
+  const FormulationCase usual = default_formulation(Motion::consistent);
+  f.number(key_of_consistent("bulk_viscosity", "Viscosity of each particle in compression; 0: off.")
+               .otherwise(fmt::to_string(usual.bulk_viscosity)),
+           c.bulk_viscosity, between(0, 10));
+  f.number(key_of_consistent("zero_energy_control",
+                             "Viscosity on the part of the motion that no gradient sees; 0: off.")
+               .otherwise(fmt::to_string(usual.zero_energy_control)),
+           c.zero_energy_control, between(0, 1));
+  f.number(key_of_consistent("refresh_strain",
+                             "Strain or rotation after which kernel gradients are made anew; 0: every step.")
+               .otherwise(fmt::to_string(usual.refresh_strain)),
+           c.refresh_strain, between(0, 0.1));
+}
+
+void declare(Fields& f, LoadingCase& c) {
+  f.number(Key("gravity", "m/s2", "g, downwards; it also turns unit weights into densities."), c.gravity,
+           above(0, 1e6));
+  f.flag(Key("gravity_applied", "", "`false`: a weightless scene."), c.gravity_applied);
+  f.flag(Key("k0_stress", "", "Whether to start from the K0 stress instead of none.")
+             .only_if(c.gravity_applied, "gravity_applied = true"),
+         c.k0_stress);
+  f.number(Key("k0", "", "Horizontal over vertical effective stress.")
+               .only_if(c.k0_stress, "k0_stress = true")
+               .otherwise("nu / (1 - nu) of each soil"),
+           c.k0, between(0, 10));
+  f.number(Key("damping", "", "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off."),
+           c.damping, between(0, 1));
+  f.number(Key("damping_until", "s", "When the damping ends.")
+               .only_if(c.damping > 0, "damping > 0")
+               .otherwise("never"),
+           c.damping_until, above(0, longest));
+}
+
+void declare(Fields& f, TimeCase& c) {
+  f.number(Key("end", "s", "When the run ends.").required(), c.end, above(0, longest));
+  f.number(Key("courant", "", "dt = courant * h / c_p, c_p the fastest compression wave."), c.courant,
+           above(0, 10));
+}
+
+void declare(Fields& f, StopCase& c) {
+  f.number(Key("unbalanced_force_ratio", "", "Equilibrium when the ratio has fallen below this; 0: never."),
+           c.unbalanced_force_ratio, between(0, 1));
+  f.flag(Key("on_separation", "", "Whether the run is unstable once particles have left the body."),
+         c.on_separation);
+}
+
+void declare(Fields& f, OutputCase& c) {
+  static const std::vector<std::string> known = OutputCase{}.fields;
+  f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, between(0, longest));
+  f.number(Key("history_interval", "s", "Between rows of the history; 0: every step."), c.history_interval,
+           between(0, longest));
+  f.words(Key("fields", "", "Particle data of the frames."), c.fields, known);
+}
+
+void declare(Fields& f, ProbeCase& c) {
+  f.name(Key("name", "", "Unlike any other probe's.").required(), c.name);
+  f.point(Key("position", "m", "At the start; the probe then moves with the soil.").required(), c.position);
+}
+
+}  // namespace porosph

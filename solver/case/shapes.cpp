@@ -1,0 +1,131 @@
+#include "solver/case/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost 1.74 announces one of its own
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/geometries/segment.hpp>
+#include <optional>
+
+namespace porosph {
+namespace {
+
+namespace bg = boost::geometry;
+using BoostPoint = bg::model::d2::point_xy<double>;
+using BoostPolygon = bg::model::polygon<BoostPoint>;
+using BoostSegment = bg::model::segment<BoostPoint>;
+
+BoostPoint boost_point(const Point& p) { return {p.x(), p.y()}; }
+
+BoostPolygon boost_polygon(const Polygon& outline, const std::vector<Polygon>& holes = {}) {
+  BoostPolygon polygon;
+  for (const Point& p : outline) polygon.outer().push_back(boost_point(p));
+  for (const Polygon& hole : holes) {
+    polygon.inners().emplace_back();
+    for (const Point& p : hole) polygon.inners().back().push_back(boost_point(p));
+  }
+  bg::correct(polygon);
+  return polygon;
+}
+BoostPolygon boost_polygon(const SoilCase& soil) { return boost_polygon(soil.polygon, soil.holes); }
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Where an outline without repeated points touches itself: a fold back at a corner, or edges that meet.
+std::optional<Point> self_contact(const Polygon& p) {
+  const std::size_t n = p.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point in = p[(i + 1) % n] - p[i], out = p[(i + 2) % n] - p[(i + 1) % n];
+    if (cross(in, out) == 0 && in.dot(out) < 0) return p[(i + 1) % n];
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j + 1 == n) continue;  // neighbours
+      const auto points = crossings(p[i], p[i + 1], p[j], p[(j + 1) % n]);
+      if (!points.empty()) return points.front();
+    }
+  return std::nullopt;
+}
+
+bool is_flat(const Polygon& p) {
+  return std::all_of(p.begin(), p.end(), [&](const Point& q) {
+    return std::abs(cross(p[1] - p[0], q - p[0])) <= 1e-12 * (p[1] - p[0]).norm() * (q - p[0]).norm();
+  });
+}
+
+}  // namespace
+
+std::string outline_fault(const Polygon& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if (outline[i] == outline[(i + 1) % outline.size()])
+      return i + 1 < outline.size() ? fmt::format("points {} and {} (from 0) are the same", i, i + 1)
+                                    : std::string("its last point repeats the first: leave it out");
+  if (is_flat(outline)) return "has no area: its points lie in one line";
+  std::string message;
+  if (bg::is_valid(boost_polygon(outline), message)) return "";
+  const auto contact = self_contact(outline);
+  return contact ? fmt::format("crosses or touches itself at ({:.6g}, {:.6g})", contact->x(), contact->y())
+                 : message;
+}
+
+std::string holes_fault(const SoilCase& soil) {
+  if (soil.holes.empty()) return "";
+  const BoostPolygon outline = boost_polygon(soil.polygon);
+  for (std::size_t i = 0; i < soil.holes.size(); ++i)
+    if (!bg::within(boost_polygon(soil.holes[i]), outline))
+      return fmt::format("hole {} (from 0) is not inside the polygon", i);
+  for (std::size_t i = 0; i < soil.holes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (bg::intersects(boost_polygon(soil.holes[i]), boost_polygon(soil.holes[j])))
+        return fmt::format("holes {} and {} (from 0) touch or overlap", j, i);
+  return bg::is_valid(boost_polygon(soil)) ? "" : "a hole touches the polygon";
+}
+
+double area(const SoilCase& soil) { return bg::area(boost_polygon(soil)); }
+
+double thickness(const Polygon& outline) {
+  BoostPolygon hull;
+  bg::convex_hull(boost_polygon(outline), hull);
+  const auto& ring = hull.outer();
+  double least = never;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const Point start(ring[i].x(), ring[i].y()), edge = Point(ring[i + 1].x(), ring[i + 1].y()) - start;
+    double width = 0;
+    for (const auto& p : ring) width = std::max(width, std::abs(cross(edge, Point(p.x(), p.y()) - start)));
+    least = std::min(least, width / edge.norm());
+  }
+  return least;
+}
+
+double overlap(const SoilCase& a, const SoilCase& b) {
+  bg::model::multi_polygon<BoostPolygon> common;
+  bg::intersection(boost_polygon(a), boost_polygon(b), common);
+  return bg::area(common);
+}
+
+double distance(const SoilCase& a, const SoilCase& b) {
+  return bg::distance(boost_polygon(a), boost_polygon(b));
+}
+
+double distance(const Point& point, const SoilCase& soil) {
+  return bg::distance(boost_point(point), boost_polygon(soil));
+}
+
+std::vector<Point> crossings(const Point& a, const Point& b, const Point& c, const Point& d) {
+  bg::model::multi_point<BoostPoint> points;
+  bg::intersection(BoostSegment(boost_point(a), boost_point(b)), BoostSegment(boost_point(c), boost_point(d)),
+                   points);
+  std::vector<Point> result;
+  for (const auto& p : points) result.emplace_back(p.x(), p.y());
+  return result;
+}
+
+double distance(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return bg::distance(BoostSegment(boost_point(a), boost_point(b)),
+                      BoostSegment(boost_point(c), boost_point(d)));
+}
+
+}  // namespace porosph

@@ -1,0 +1,206 @@
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "tests/unit/solver/case/case_text.hpp"
+
+using namespace porosph;
+using namespace porosph::test;
+
+namespace {
+
+std::string contents(const std::string& file) {
+  std::ifstream stream(std::string(POROSPH_SOURCE_DIR) + "/" + file, std::ios::binary);
+  REQUIRE(stream);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool same(const Case& a,
+          const Case& b) {  // every key that differs shows in the text, doubles to the last bit
+  return write_case(a) == write_case(b);
+}
+
+// A case in which nothing has its default value.
+Case unusual_case() {
+  Case c;
+  c.title = "Ünusual \"quoted\" \\ two\nlines\t'x'";
+  c.particles = {0.1 + 0.2, 1.0 / 0.9, Arrangement::disordered, 1.0 / 3, 77};
+  SoilCase sand{"sand",
+                {{0, 0}, {4, 0}, {4, 3}, {0, 3}},
+                {{{1, 1}, {2, 1}, {1.5, 2}}},
+                1e6 / 3,
+                -0.1,
+                2e4 / 7,
+                1e4 / 7,
+                true,
+                Point(0.1, -1e-17)};
+  SoilCase clay = sand;
+  clay.name = "clay";
+  clay.polygon = {{4, 0}, {4, 3}, {8, 3}, {8, 0}};
+  clay.holes.clear();
+  c.soils = {sand, clay};
+  c.water.unit_weight = 1e4 / 3;
+  c.water.stretches = {{-never, 1, 2}, {1, 3.3, 1.1}, {5, never, -0.7}};
+  c.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 5}}, {BoundaryKind::fixed, {8, 0}, {0, 0}}};
+  c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.0123};
+  c.loading = {9.8065, true, true, 0.7, 0.001, 1.0 / 7};
+  c.time = {1.0 / 3, 0.9};
+  c.stop = {1e-5, false};
+  c.output = {0.01, 0.001, {"Velocity", "Density"}};
+  c.probes = {{"A", {3, 0.5}}, {"b-2_x", {7, 1}}};
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("a written case reads as the same case") {
+  const Case c = unusual_case();
+  const Case back = parse_case(write_case(c), "written");
+  CHECK(same(back, c));
+  CHECK(back.title == c.title);
+  CHECK(back.particles.spacing == c.particles.spacing);
+  CHECK(back.particles.seed == 77);
+  CHECK(back.soils[0].holes == c.soils[0].holes);
+  CHECK(back.soils[0].velocity == c.soils[0].velocity);
+  CHECK(back.soils[1].youngs_modulus == c.soils[1].youngs_modulus);
+  CHECK(back.water.stretches.size() == 3);
+  CHECK(back.water.stretches[0].x_from == -never);
+  CHECK(back.water.stretches[1].x_to == 3.3);
+  CHECK(back.formulation.refresh_strain == 0.0123);
+  CHECK_FALSE(back.formulation.kernel_correction);
+  CHECK(back.loading.k0 == 0.7);
+  CHECK(back.loading.damping_until == 1.0 / 7);
+  CHECK(back.output.fields == c.output.fields);
+  CHECK(back.probes[1].position == Point(7, 1));
+}
+
+TEST_CASE("what is not given has its default, and stays so when written") {
+  const Case c = parse_case(small_case, "box.toml");
+  CHECK(c.particles.smoothing_ratio == 1.2);
+  CHECK(c.soils[0].unit_weight_unsaturated == 20e3);
+  CHECK_FALSE(c.water.present());
+  CHECK(c.loading.k0 < 0);
+  CHECK(c.loading.damping_until == never);
+  CHECK(c.output.fields == OutputCase{}.fields);
+  CHECK(c.reference == Reference::none);
+  CHECK(same(parse_case(write_case(c), "written"), c));
+  CHECK_FALSE(parse_case(write_case(c), "written").water.present());
+}
+
+TEST_CASE("each momentum form brings its own artificial terms") {
+  const FormulationCase usual = parse_case(small_case, "box.toml").formulation;
+  CHECK(usual.motion == Motion::consistent);
+  CHECK(usual.artificial_viscosity_alpha == 0);
+  CHECK(usual.artificial_stress == 0);
+  CHECK(usual.bulk_viscosity == 0.06);
+  CHECK(usual.zero_energy_control == 0.05);
+  CHECK(usual.refresh_strain == 1e-4);
+  for (const Motion motion : {Motion::conventional, Motion::proposed, Motion::rho_squared}) {
+    const std::string set = "formulation.motion=" + std::string(motion_name(motion));
+    const Case c = parse_case(small_case, "box.toml", {set});
+    CHECK(c.formulation.motion == motion);
+    CHECK(c.formulation.artificial_viscosity_alpha == 0.1);
+    CHECK(c.formulation.artificial_stress == 0.5);
+    CHECK(c.formulation.bulk_viscosity == 0);
+    CHECK(c.formulation.zero_energy_control == 0);
+    CHECK(c.formulation.refresh_strain == 0);
+    CHECK(same(parse_case(write_case(c), "written"), c));
+  }
+  const Case given =
+      parse_case(small_case + "[formulation]\nartificial_stress = 0.2\nmotion = 'proposed'\n", "box.toml");
+  CHECK(given.formulation.artificial_stress == 0.2);
+  CHECK(given.formulation.artificial_viscosity_alpha == 0.1);
+}
+
+TEST_CASE("the foundation is the paper's") {
+  const Case c = read_case(std::string(POROSPH_SOURCE_DIR) + "/cases/foundation.toml");
+  CHECK(c.soils[0].polygon == Polygon{{0, 0}, {15, 0}, {15, 10}, {0, 10}});
+  CHECK(c.smoothing_length() == Approx(0.24));
+  CHECK(c.soils[0].youngs_modulus == 15e6);
+  CHECK(c.soils[0].poissons_ratio == 0.33);
+  CHECK(c.soils[0].unit_weight_saturated == 20e3);
+  CHECK(c.water.unit_weight == 9810);
+  CHECK(c.water.stretches.at(0).level == 15);
+  CHECK(c.boundaries.size() == 3);
+  CHECK(c.boundaries[1].to == Point(15, 15));
+  CHECK(c.loading.damping == 0.002);
+  CHECK(c.time.end == 4);
+  CHECK(c.time.courant == 0.2);
+  CHECK(c.output.interval == 0.1);
+  CHECK(c.formulation.motion == Motion::consistent);
+  CHECK(c.reference == Reference::column);
+  CHECK(c.probes.at(1).position == Point(7.5, 0.1));
+}
+
+TEST_CASE("the embankment's lattice has the paper's 8454 particles") {
+  const Case c = read_case(std::string(POROSPH_SOURCE_DIR) + "/cases/embankment.toml");
+  CHECK(c.soils[0].unit_weight_unsaturated == 18.6e3);
+  CHECK(c.soils[0].poissons_ratio == 0.25);
+  CHECK(c.water.stretches.at(0).level == 8);
+  CHECK(c.probes.at(0).position == Point(17.7, 3));
+
+  // The upper outline, cell centres inside or on it.
+  const auto top = [](double x) {
+    if (x < 10 || x > 33) return 6.;
+    if (x < 15) return 6 + (x - 10);
+    return x > 20.5 ? 6 + (33 - x) / 2.5 : 11.;
+  };
+  int particles = 0;
+  for (double x = 0.1; x < 44.4; x += 0.2)
+    for (double y = 0.1; y < top(x) + 1e-9; y += 0.2) ++particles;
+  CHECK(particles == 8454);
+  CHECK(c.soils[0].polygon ==
+        Polygon{{0, 0}, {44.4, 0}, {44.4, 6}, {33, 6}, {20.5, 11}, {15, 11}, {10, 6}, {0, 6}});
+}
+
+// After a change of keys: unit_solver "[.write-docs]" writes the reference part anew.
+TEST_CASE("the case format's documentation is up to date") {
+  CHECK(contents("docs/case-format.md").ends_with("\n## Reference\n\n" + describe_case_format()));
+}
+TEST_CASE("write the case format's documentation", "[.write-docs]") {
+  const std::string old_text = contents("docs/case-format.md"), head = "\n## Reference\n\n";
+  const auto introduction = old_text.substr(0, old_text.find(head));
+  std::ofstream(std::string(POROSPH_SOURCE_DIR) + "/docs/case-format.md")
+      << introduction << head << describe_case_format();
+  SUCCEED();
+}
+
+TEST_CASE("damaged files are read or refused, never worse") {
+  const std::string sound = contents("cases/foundation.toml");
+  std::mt19937 random(20240501);
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  const std::string structure = "[]{}\"'=.,#\n-0e9x";
+  int read = 0, refused = 0;
+  for (int i = 0; i < 800; ++i) {
+    std::string text = sound;
+    for (std::size_t n = 1 + below(4); n > 0; --n) {
+      const std::size_t at = below(text.size());
+      switch (below(4)) {
+        case 0:
+          text[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          text[at] = structure[below(structure.size())];
+          break;
+        case 2:
+          text.erase(at, 1 + below(20));
+          break;
+        default:
+          text.insert(at, text.substr(below(text.size()), 1 + below(30)));
+      }
+    }
+    try {
+      const Case c = parse_case(text, "damaged");
+      INFO(text);
+      CHECK(same(parse_case(write_case(c), "written"), c));
+      ++read;
+    } catch (const CaseError& error) {
+      CHECK(std::string(error.what()).size() > 0);
+      ++refused;
+    }
+  }
+  CHECK(read > 0);
+  CHECK(refused > 400);
+}
