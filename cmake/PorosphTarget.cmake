@@ -5,6 +5,7 @@ function(porosph_flags target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wduplicated-cond -Wlogical-op
+    -Wno-restrict  # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
     $<$<BOOL:${POROSPH_WERROR}>:-Werror>
     $<$<CONFIG:Release>:-O3>
     $<$<BOOL:${POROSPH_NATIVE}>:-march=native>)

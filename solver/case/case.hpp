@@ -116,6 +116,7 @@ struct ProbeCase {
 enum class Reference {
   none,
   column,  ///< finite-strain column under its own weight and the water (one soil, level ground, level water)
+  conventional_column,  ///< what the conventional form makes of it instead
 };
 
 struct Case {

@@ -150,7 +150,7 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   if (!soils_are_sound) return issues;
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
-  if (c.reference == Reference::column && of_boundaries.empty()) {
+  if (c.reference != Reference::none && of_boundaries.empty()) {
     const std::string fault = column_fault(c);
     if (!fault.empty()) issues.push_back({"reference", fault});
   }

@@ -12,7 +12,7 @@ using Names = std::string_view;
 constexpr std::array<Names, 3> arrangements{"lattice", "fitted", "disordered"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
-constexpr std::array<Names, 2> references{"none", "column"};
+constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 
 std::string default_by_motion(double FormulationCase::*setting) {
   return fmt::format("{} (consistent), {} (others)", default_formulation(Motion::consistent).*setting,
@@ -41,10 +41,9 @@ FormulationCase default_formulation(Motion motion) {
   if (motion == Motion::consistent) {
     c.bulk_viscosity = 0.06;
     c.zero_energy_control = 0.05;
-    c.refresh_strain = 1e-4;
+    c.refresh_strain = 0.05;
   } else {
     c.artificial_viscosity_alpha = 0.1;
-    c.artificial_stress = 0.5;
   }
   return c;
 }

@@ -68,6 +68,7 @@ void Simulation::drift() {
     if (wet) p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
     runaway = runaway || !(p.velocity[i].squaredNorm() < model_.wave_speed * model_.wave_speed);
   }
+  runaway_ = runaway;
   if (runaway) instability_ = find_runaway(model_, time() + dt);
 }
 

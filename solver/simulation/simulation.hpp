@@ -46,6 +46,8 @@ class Simulation {
 
   /// What went wrong, where, and what usually causes it; empty while all is well.
   const std::optional<std::string>& instability() const { return instability_; }
+  /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
+  bool showable() const { return !runaway_; }
   /// Looks for particles that have left the body (costs a neighbour search).
   void look_for_separation();
 
@@ -63,6 +65,7 @@ class Simulation {
   bool accelerations_valid_ = false;
   std::int64_t bodies_at_start_ = 0;
   std::optional<std::string> instability_;
+  bool runaway_ = false;
 };
 
 /// Largest stable-by-the-CFL-number time step, rounded down so that whole steps reach the end time [s].

@@ -1,0 +1,37 @@
+// What a subcommand is.
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace porosph::app {
+
+using Arguments = std::vector<std::string>;
+
+/// Exit statuses that other programs rely on.
+enum Exit : int { done = 0, wrong_input = 2, unstable = 3, file_failure = 4, interrupted = 130 };
+
+struct Command {
+  std::string name, summary;
+  int (*run)(const Arguments&);
+};
+
+/// The command line is wrong: exit 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Parses the arguments of a subcommand. Prints its help and returns false if that was asked for.
+/// `usage` is what stands after "porosph", `examples` are complete command lines. Throws UsageError.
+bool parse(const Arguments& arguments, const boost::program_options::options_description& options,
+           const boost::program_options::positional_options_description& positional, const std::string& usage,
+           const std::string& examples, boost::program_options::variables_map& values);
+
+int run_command(const Arguments& arguments);
+int check_command(const Arguments& arguments);
+int render_command(const Arguments& arguments);
+
+}  // namespace porosph::app

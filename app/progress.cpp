@@ -1,0 +1,42 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace porosph::app {
+namespace {
+
+std::string clock_text(double seconds) {
+  const auto s = static_cast<long>(seconds + 0.5);
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stderr)) != 0) {}
+
+void Progress::show(const Simulation& s) {
+  const auto now = Clock::now();
+  const std::chrono::duration<double> pause = now - last_;
+  if (quiet_ || pause.count() < (terminal_ ? 0.2 : 10)) return;
+  last_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double steps = static_cast<double>(s.step());
+  const double rate = steps * static_cast<double>(s.model().particles.size()) / elapsed;
+  const double left = elapsed * static_cast<double>(s.last_step() - s.step()) / steps;
+  const std::string line =
+      fmt::format("t = {:.4f} of {:g} s   step {} of {}   {:.2f} M particle-steps/s   {} left", s.time(),
+                  s.scene().time.end, s.step(), s.last_step(), rate / 1e6, clock_text(left));
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\x1b[K" : "\n");
+  std::fflush(stderr);
+  line_open_ = terminal_;
+}
+
+void Progress::finish() {
+  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  line_open_ = false;
+}
+
+}  // namespace porosph::app

@@ -1,0 +1,23 @@
+// Tells a person how far a run is.
+#pragma once
+
+#include <chrono>
+
+#include "solver/simulation/simulation.hpp"
+
+namespace porosph::app {
+
+/// On a terminal one line that is written over, otherwise a plain line every ten seconds. Writes to standard error.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  void show(const Simulation& simulation);
+  void finish();  ///< leaves the line that was written over
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, terminal_, line_open_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+}  // namespace porosph::app

@@ -1,0 +1,92 @@
+#include "app/summarise.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <limits>
+
+#include "solver/case/case_file.hpp"
+#include "solver/simulation/reference_errors.hpp"
+
+namespace porosph::app {
+namespace {
+
+std::map<std::string, std::string> skipped_work(const Simulation& s) {
+  const Case& c = s.scene();
+  const FormulationCase& f = c.formulation;
+  const Dynamics::Counts& counts = s.dynamics().counts;
+  std::map<std::string, std::string> skipped;
+  if (!c.water.present()) skipped["pore_pressure"] = "the scene is dry";
+  if (!f.kernel_correction) skipped["kernel_correction"] = "off";
+  if (f.artificial_viscosity_alpha == 0 && f.artificial_viscosity_beta == 0)
+    skipped["artificial_viscosity"] = "alpha and beta are zero";
+  if (f.artificial_stress == 0) skipped["artificial_stress"] = "its strength is zero";
+  if (f.zero_energy_control == 0) skipped["zero_energy_control"] = "its strength is zero";
+  if (f.bulk_viscosity == 0) skipped["bulk_viscosity"] = "its strength is zero";
+  if (c.loading.damping == 0) skipped["damping"] = "xi is zero";
+  skipped["kernel_gradients"] = fmt::format("made {} times in {} steps", counts.refreshes, s.step());
+  skipped["neighbour_search"] = fmt::format("{} times in {} steps", counts.searches, s.step());
+  return skipped;
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024L;
+}
+
+}  // namespace
+
+Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds) {
+  Summary summary;
+  summary.status = outcome.status;
+  summary.message = outcome.message;
+  summary.title = s.scene().title;
+  summary.formulation = motion_name(s.scene().formulation.motion);
+  summary.kernel_correction = s.scene().formulation.kernel_correction;
+  summary.particles = static_cast<std::int64_t>(s.model().particles.size());
+  summary.steps = s.step();
+  summary.time = s.time();
+  summary.time_step = s.time_step();
+  summary.threads = omp_get_max_threads();
+  summary.wall_seconds = wall_seconds;
+  summary.stepping_seconds = outcome.stepping_seconds;
+  summary.particle_steps_per_second =
+      static_cast<double>(summary.particles * summary.steps) / outcome.stepping_seconds;
+  summary.peak_memory_bytes = peak_memory();
+  summary.unbalanced_force_ratio =
+      s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
+  for (const Probe& probe : s.probes()) {
+    Summary::Probe& p = summary.probes[probe.name()];
+    p.x = probe.start().x(), p.y = probe.start().y();
+    const std::vector<double> values = probe.read(s.model().particles).values();
+    for (std::size_t i = 0; i < values.size(); ++i) p.values[probe_quantities()[i]] = values[i];
+  }
+  summary.errors = reference_errors(s);
+  summary.skipped = skipped_work(s);
+  return summary;
+}
+
+std::string tell(const Summary& s) {
+  static constexpr const char* endings[] = {"completed", "in equilibrium", "unstable", "interrupted"};
+  std::string text = fmt::format("{} at {:.6g} s, {} steps of {:.3g} s", endings[static_cast<int>(s.status)], s.time,
+                                 s.steps, s.time_step);
+  if (!s.message.empty()) text += ": " + s.message;
+  text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n", s.particles,
+                      s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);
+  if (std::isfinite(s.unbalanced_force_ratio))
+    text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
+  for (const auto& [name, probe] : s.probes)
+    text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
+                        probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
+  for (const auto& [field, error] : s.errors) {
+    const bool stress = field.starts_with("EffectiveStress");
+    text += fmt::format("{} against the exact solution: {:.3f} % (L2), at most {:.3f} {}\n", field,
+                        100 * error.relative_l2, error.max_abs / (stress ? 1e3 : 1e-3), stress ? "kPa" : "mm");
+  }
+  return text;
+}
+
+}  // namespace porosph::app

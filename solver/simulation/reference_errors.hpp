@@ -1,0 +1,16 @@
+// How far a run's state is from the exact solution that its case names.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "solver/output/frame.hpp"
+#include "solver/simulation/simulation.hpp"
+
+namespace porosph {
+
+/// Field (EffectiveStress_YY, ..., Displacement_Y) -> norms over the particles, each at its height at t = 0; empty where
+/// the case names no reference. Throws std::runtime_error where the case is not one that the reference describes.
+std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation);
+
+}  // namespace porosph

@@ -1,0 +1,45 @@
+// A whole run: from the start to the end time, equilibrium, breakdown or interruption.
+#pragma once
+
+#include <functional>
+
+#include "solver/output/frame.hpp"
+#include "solver/simulation/simulation.hpp"
+
+namespace porosph {
+
+/// Steps at which something is due every `interval` seconds: the nearest step to each multiple; every step where the
+/// interval is shorter than one. The first and the last step are always due.
+class Schedule {
+ public:
+  Schedule(double interval, double time_step, std::int64_t last_step)
+      : interval_(interval), dt_(time_step), last_(last_step) {}
+  bool due(std::int64_t step) const;
+
+ private:
+  double interval_, dt_;
+  std::int64_t last_;
+};
+
+/// What the caller does while a run goes on. Empty functions are not called.
+struct RunWatch {
+  std::function<void(Simulation&)> frame;                        ///< a frame is due (output.interval)
+  std::function<void(const std::vector<double>& row)> history;   ///< a row of history_columns()
+  std::function<void(const Simulation&)> progress;               ///< after every step
+  std::function<bool()> interrupted;                             ///< true ends the run after this step
+};
+
+struct RunOutcome {
+  RunStatus status = RunStatus::completed;
+  std::string message;          ///< where and why, unless completed
+  double stepping_seconds = 0;  ///< wall time without what the watch did [s]
+};
+
+/// Advances to the end. The last frame and history row are of the state at which the run ended; a state that has broken
+/// down is not shown.
+RunOutcome run(Simulation& simulation, const RunWatch& watch);
+
+/// "time", then "<probe>.<quantity>".
+std::vector<std::string> history_columns(const Simulation& simulation);
+
+}  // namespace porosph
