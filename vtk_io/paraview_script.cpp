@@ -65,7 +65,7 @@ if times:
 
 display.SetRepresentationType("Point Gaussian")
 display.ShaderPreset = "Plain circle"
-# The particles fill the area they stand for: half the mean spacing in a bounding box gives their radius.
+# The particles fill the area they stand for: half the mean spacing in the bounding box is their radius.
 bounds = reader.GetDataInformation().GetBounds()
 count = max(reader.GetDataInformation().GetNumberOfPoints(), 1)
 area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
@@ -76,6 +76,9 @@ if FIELD:
     ColorBy(display, ("POINTS", FIELD, COMPONENT) if COMPONENT else ("POINTS", FIELD))
     display.RescaleTransferFunctionToDataRange(True, False)
     display.SetScalarBarVisibility(view, True)
+    bar = GetScalarBar(GetColorTransferFunction(FIELD), view)
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Lower Center"
 
 view.InteractionMode = "2D"
 view.OrientationAxesVisibility = 0

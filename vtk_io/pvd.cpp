@@ -92,7 +92,6 @@ std::string pvd_text(const std::vector<SeriesFrame>& frames) {
   std::ostringstream text;
   text << "<?xml version=\"1.0\"?>\n";
   root->PrintXML(text, vtkIndent());
-  text << "\n";
   return text.str();
 }
 

@@ -83,6 +83,7 @@ inline std::string content(const std::filesystem::path& file) {
 }
 
 inline void put(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::remove(file);  // some file systems wait for the disk when a file is written over
   std::ofstream(file, std::ios::binary) << text;
 }
 
