@@ -21,7 +21,7 @@ template <class T>
 std::string toml_text(const std::vector<T>& values) {
   std::string list;
   for (const T& value : values) list += (list.empty() ? "" : ", ") + toml_text(value);
-  return "[" + list + "]";
+  return fmt::format("[{}]", list);
 }
 
 /// Writes declared values that are used, each with its unit or meaning beside it.
@@ -66,7 +66,7 @@ class Writer : public Fields {
   void block(const Key& key, fmt::string_view header, const std::function<void()>& contents) {
     const std::string outer =
         std::exchange(path_, path_ + (path_.empty() ? "" : ".") + std::string(key.name));
-    result += "\n" + fmt::format(fmt::runtime(header), path_) + "\n";
+    result += fmt::format("\n{}\n", fmt::format(fmt::runtime(header), path_));
     contents();
     path_ = outer;
   }

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <random>
 
+#include "solver/output/fields.hpp"
 #include "tests/unit/solver/case/case_text.hpp"
 
 using namespace porosph;
@@ -151,6 +152,12 @@ TEST_CASE("the embankment's lattice has the paper's 8454 particles") {
   CHECK(particles == 8454);
   CHECK(c.soils[0].polygon ==
         Polygon{{0, 0}, {44.4, 0}, {44.4, 6}, {33, 6}, {20.5, 11}, {15, 11}, {10, 6}, {0, 6}});
+}
+
+TEST_CASE("the fields that a case may ask for are those that frames can hold") {
+  std::vector<std::string> names;
+  for (const FieldDescription& field : known_fields()) names.push_back(field.name);
+  CHECK(OutputCase{}.fields == names);
 }
 
 // After a change of keys: unit_solver "[.write-docs]" writes the reference part anew.
