@@ -11,14 +11,19 @@ namespace {
 /// promise.
 double draw(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; }
 
-void displace(std::vector<CellSite>& sites, const std::vector<Region>& regions, double largest, int seed) {
+void displace(const Grid& grid, const std::vector<Region>& regions, double largest, int seed,
+              std::vector<CellSite>& sites) {
+  std::vector<std::vector<CellPlace>> places;
+  for (const Region& region : regions) places.push_back(place_cells(grid, region, largest));
+
   std::mt19937_64 random(seed);
   for (auto& [cell, site] : sites) {
+    const bool may_leave = places[site.soil][cell] == CellPlace::at_outline;
     Point displaced;
     do {
       const double dx = draw(random), dy = draw(random);
       displaced = site.position + largest * Point(dx, dy);
-    } while (!regions[site.soil].contains(displaced));
+    } while (may_leave && !regions[site.soil].contains(displaced));
     site.position = displaced;
   }
 }
@@ -28,7 +33,7 @@ void displace(std::vector<CellSite>& sites, const std::vector<Region>& regions, 
 std::vector<CellSite> arrange_disordered(const Grid& grid, const std::vector<Region>& regions,
                                          double disorder, int seed) {
   std::vector<CellSite> sites = arrange_lattice(grid, regions);
-  displace(sites, regions, disorder * grid.spacing, seed);
+  displace(grid, regions, disorder * grid.spacing, seed, sites);
   for (std::size_t soil = 0; soil < regions.size(); ++soil)
     set_voronoi_areas(grid, regions[soil], static_cast<int>(soil), disorder * grid.spacing, sites);
   return sites;
