@@ -1,0 +1,126 @@
+#include "render/contour_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace porosph {
+
+namespace {
+
+constexpr double widest = 1400, tallest = 1000;  // of a fitted figure [pixels]
+constexpr double edge = 14, bar_gap = 16;        // around the figure; before a colour bar
+
+struct Grid {
+  int columns, rows, panels;
+  int row(int panel) const { return panel / columns; }
+  int column(int panel) const { return panel % columns; }
+  bool ends_row(int panel) const { return column(panel) == columns - 1 || panel == panels - 1; }
+};
+
+Grid make_grid(int panels, int columns) { return {columns, (panels + columns - 1) / columns, panels}; }
+
+bool bar_after(const ContourSpace& space, const Grid& grid, int panel) {
+  return space.own_scale[panel] || grid.ends_row(panel) || space.own_scale[panel + 1];
+}
+
+std::vector<double> bar_widths(const ContourSpace& space, const Grid& grid) {
+  std::vector<double> widths(grid.columns, 0.);
+  for (int panel = 0; panel < grid.panels; ++panel)
+    if (bar_after(space, grid, panel)) widths[grid.column(panel)] = bar_gap + space.bar_slot;
+  return widths;
+}
+
+struct Fixed {
+  double width, height;  ///< pixels that do not grow with the panels
+};
+
+Fixed fixed_parts(const ContourSpace& space, const Grid& grid) {
+  Fixed fixed{2 * edge, 2 * edge + space.header};
+  for (const double bar : bar_widths(space, grid)) fixed.width += bar;
+  fixed.width += grid.columns * (space.margins.left + space.margins.right + 2 * space.padding);
+  fixed.height += grid.rows * (space.margins.top + space.margins.bottom + 2 * space.padding);
+  return fixed;
+}
+
+double scale_within(const ContourSpace& space, const Grid& grid, double width, double height) {
+  const Fixed fixed = fixed_parts(space, grid);
+  return std::min((width - fixed.width) / (grid.columns * space.world_width),
+                  (height - fixed.height) / (grid.rows * space.world_height));
+}
+
+Grid best_grid(const ContourSpace& space, const ContourSize& size, double width, double height) {
+  const int panels = static_cast<int>(space.own_scale.size());
+  if (size.columns > 0) return make_grid(panels, std::min(size.columns, panels));
+  Grid best = make_grid(panels, 1);
+  for (int columns = 2; columns <= panels; ++columns) {
+    const Grid grid = make_grid(panels, columns);
+    if (scale_within(space, grid, width, height) > scale_within(space, best, width, height)) best = grid;
+  }
+  return best;
+}
+
+Box frame_of(const ContourSpace& space, const Grid& grid, int panel, double scale, Pixel top_left) {
+  const double width = scale * space.world_width + 2 * space.padding;
+  const double height = scale * space.world_height + 2 * space.padding;
+  const std::vector<double> bars = bar_widths(space, grid);
+  double x = top_left.x + space.margins.left;
+  for (int column = 0; column < grid.column(panel); ++column)
+    x += width + space.margins.right + bars[column] + space.margins.left;
+  const double cell = height + space.margins.top + space.margins.bottom;
+  const double y = top_left.y - grid.row(panel) * cell - space.margins.top - height;
+  return {std::round(x), std::round(y), std::round(width), std::round(height)};
+}
+
+/// A shared bar beside a panel that stands right above another one of the same scale continues into it.
+std::vector<BarPlace> place_bars(const ContourSpace& space, const Grid& grid,
+                                 const std::vector<Box>& frames) {
+  std::vector<BarPlace> bars;
+  for (int column = 0; column < grid.columns; ++column) {
+    bool continues = false;
+    for (int panel = column; panel < grid.panels; panel += grid.columns) {
+      const bool here = bar_after(space, grid, panel), shared = here && !space.own_scale[panel];
+      const Box& frame = frames[panel];
+      if (shared && continues) {
+        Box& bar = bars.back().box;
+        bar.height = bar.top() - frame.y;
+        bar.y = frame.y;
+      } else if (here) {
+        bars.push_back(
+            {{frame.right() + space.margins.right + bar_gap, frame.y, space.bar_slot, frame.height}, panel});
+      }
+      continues = shared;
+    }
+  }
+  return bars;
+}
+
+}  // namespace
+
+ContourLayout lay_out(const ContourSpace& space, const ContourSize& size) {
+  const double width = size.width > 0 ? size.width : widest, height = size.height > 0 ? size.height : tallest;
+  const Grid grid = best_grid(space, size, width, height);
+  const Fixed fixed = fixed_parts(space, grid);
+  ContourLayout layout;
+  layout.pixels_per_metre = scale_within(space, grid, width, height);
+  const double content_width = fixed.width + grid.columns * layout.pixels_per_metre * space.world_width;
+  const double content_height = fixed.height + grid.rows * layout.pixels_per_metre * space.world_height;
+  if (layout.pixels_per_metre * std::max(space.world_width, space.world_height) < 40)
+    throw std::runtime_error(
+        fmt::format("render: {} panels do not fit into {:.0f} x {:.0f} pixels; make the picture larger",
+                    grid.panels, width, height));
+
+  const double fitted_width = std::clamp(content_width, std::min(size.least_width, widest), widest);
+  layout.width = size.width > 0 ? size.width : static_cast<int>(std::ceil(fitted_width));
+  layout.height = size.height > 0 ? size.height : static_cast<int>(std::ceil(content_height));
+  const Pixel top_left{0.5 * (layout.width - content_width) + edge,
+                       0.5 * (layout.height + content_height) - edge - space.header};
+  for (int panel = 0; panel < grid.panels; ++panel)
+    layout.frames.push_back(frame_of(space, grid, panel, layout.pixels_per_metre, top_left));
+  layout.bars = place_bars(space, grid, layout.frames);
+  return layout;
+}
+
+}  // namespace porosph
