@@ -16,7 +16,7 @@ AxisTicks make_ticks(const Axis& axis, int max_count) {
   AxisTicks ticks;
   if (axis.logarithmic) {
     LogTicks log = log_ticks(axis.low, axis.high, max_count);
-    for (const double tick : log.major) ticks.labels.push_back(log_tick_label(tick));
+    ticks.labels = log_tick_labels(log.major);
     ticks.major = std::move(log.major);
     ticks.minor = std::move(log.minor);
   } else {
@@ -99,9 +99,9 @@ Pixel Plot::at(double x_value, double y_value) const {
 }
 
 AxisTicks fitting_ticks(const Axis& axis, double length, bool upright) {
-  int count = std::max(2, static_cast<int>(length / (upright ? 40 : 60)));
+  int count = std::max(2, static_cast<int>(length / (upright ? 27 : 60)));
   AxisTicks ticks = make_ticks(axis, std::min(count, 12));
-  for (count = std::min(count, 12) - 1; count >= 2 && crowded(axis, ticks, length, upright); --count)
+  for (count = std::min(count, 12) - 1; count >= 1 && crowded(axis, ticks, length, upright); --count)
     ticks = make_ticks(axis, count);
   return ticks;
 }

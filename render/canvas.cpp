@@ -33,7 +33,7 @@ void apply(vtkTextProperty& property, const TextStyle& style, double scale) {
 void apply(vtkPen& vtk_pen, const Pen& pen, double scale) {
   vtk_pen.SetLineType(vtkPen::SOLID_LINE);
   vtk_pen.SetColor(pen.colour[0], pen.colour[1], pen.colour[2]);
-  vtk_pen.SetWidth(static_cast<float>(pen.width * scale));
+  vtk_pen.SetWidth(static_cast<float>(std::max(1L, std::lround(pen.width * scale))));
 }
 
 void apply(vtkBrush& brush, const Fill& fill) {

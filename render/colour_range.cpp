@@ -44,7 +44,7 @@ ValueRange centred_range(ValueRange extent) {
   if (!(extent.low <= extent.high)) return {-1, 1};
   const double largest = std::max(std::abs(extent.low), std::abs(extent.high));
   if (largest == 0) return {-1, 1};
-  const double high = rounded_range({0, largest}).high;
+  const double high = rounded_range({-largest, largest}).high;
   return {-high, high};
 }
 

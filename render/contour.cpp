@@ -132,13 +132,26 @@ Extent common_world(const std::vector<Scene>& scenes) {
   return world;
 }
 
+std::string subtitle_of(const Scene& scene) {
+  if (scene.note.empty() || scene.panel.subtitle.empty()) return scene.panel.subtitle + scene.note;
+  return scene.panel.subtitle + " — " + scene.note;
+}
+
 double title_height(const std::vector<Scene>& scenes) {
   double height = 8;
   const auto any = [&](auto has) { return std::ranges::any_of(scenes, has); };
   if (any([](const Scene& scene) { return !scene.panel.title.empty(); })) height += 1.5 * panel_title_text;
-  if (any([](const Scene& scene) { return !scene.panel.subtitle.empty() || !scene.note.empty(); }))
-    height += 1.5 * subtitle_text;
+  if (any([](const Scene& scene) { return !subtitle_of(scene).empty(); })) height += 1.5 * subtitle_text;
   return height;
+}
+
+double titles_width(const std::vector<Scene>& scenes) {
+  constexpr double longest = 320;  // titles beyond are drawn smaller
+  double width = 0;
+  for (const Scene& scene : scenes)
+    width = std::max({width, text_extent(scene.panel.title, panel_title_text).x,
+                      text_extent(subtitle_of(scene), subtitle_text).x});
+  return std::min(width + 4, longest);
 }
 
 ContourSpace needed_space(const ContourFigure& figure, const std::vector<Scene>& scenes,
@@ -148,6 +161,7 @@ ContourSpace needed_space(const ContourFigure& figure, const std::vector<Scene>&
   space.world_width = world.width();
   space.world_height = world.height();
   space.padding = padding;
+  space.least_frame = std::max(100., titles_width(scenes));
   space.header = figure.title.empty() ? 0 : 1.7 * figure_title_text;
   space.margins = frame_margins({world.x_low, world.x_high, false, ""},
                                 {world.y_low, world.y_high, false, ""}, guess, guess);
@@ -172,8 +186,7 @@ Plot plot_of(const Box& frame, const Extent& world, double pixels_per_metre) {
 
 void draw_titles(Canvas& canvas, const Scene& scene, const Box& frame) {
   double y = frame.top() + 8;
-  std::string subtitle = scene.panel.subtitle;
-  if (!scene.note.empty()) subtitle += (subtitle.empty() ? "" : " — ") + scene.note;
+  const std::string subtitle = subtitle_of(scene);
   if (!subtitle.empty()) {
     canvas.text({frame.x, y}, subtitle,
                 {.size = fitting_size(subtitle, subtitle_text, frame.width),

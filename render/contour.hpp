@@ -32,7 +32,7 @@ struct ContourFigure {
   std::vector<ContourPanel> panels;
   ColourScale scale;
   int columns = 0;            ///< 0: as fits the bodies' shape best
-  int width = 0, height = 0;  ///< [pixels]; 0: fitted to the content, at most 1400 x 1000
+  int width = 0, height = 0;  ///< [pixels]; 0: fitted to the content, at most 1600 x 1200
 };
 
 /// Draws the figure as PNG. Same figure, same bytes. May be called from any thread.

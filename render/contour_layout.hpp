@@ -11,6 +11,7 @@ struct ContourSpace {
   double world_width = 1, world_height = 1;  ///< that each panel shows [m]
   FrameMargins margins;                      ///< around each panel's frame, titles included [pixels]
   double padding = 0;                        ///< between the world and the frame [pixels]
+  double least_frame = 0;                    ///< wanted width of a frame, for its titles [pixels]
   double header = 0;                         ///< above all panels [pixels]
   double bar_slot = 0;                       ///< width of a colour bar with its labels [pixels]
   std::vector<bool> own_scale;               ///< one per panel

@@ -25,7 +25,17 @@ std::string with_true_minus(std::string text) {
   return text;
 }
 
-int decimals_of(double step) { return std::max(0, -static_cast<int>(std::floor(std::log10(step) + slack))); }
+int exponent_of(double number) { return static_cast<int>(std::floor(std::log10(number) + slack)); }
+
+std::string plain_label(double tick) { return fmt::format("{:.{}f}", tick, std::max(0, -exponent_of(tick))); }
+
+std::string power_label(double tick) {
+  const int exponent = exponent_of(tick);
+  const double mantissa = std::round(tick / std::pow(10., exponent));
+  return mantissa == 1 ? power_of_ten(exponent) : fmt::format("{:.0f}×{}", mantissa, power_of_ten(exponent));
+}
+
+int decimals_of(double step) { return std::max(0, -exponent_of(step)); }
 
 std::vector<double> multiples(double step, double low, double high) {
   std::vector<double> ticks;
@@ -45,13 +55,15 @@ double nice_step(double step) {
 
 std::vector<double> linear_ticks(double low, double high, int max_count) {
   if (!(high > low)) return {low};
-  double step = nice_step((high - low) / std::max(max_count, 2));
-  std::vector<double> ticks = multiples(step, low, high);
-  while (static_cast<int>(ticks.size()) > std::max(max_count, 2)) {
+  const std::size_t most = std::max(max_count, 1);
+  double step = nice_step(0.5 * (high - low) / static_cast<double>(most));
+  std::vector<double> ticks = multiples(step, low, high), finer;
+  while (ticks.size() > most) {
+    finer = std::move(ticks);
     step = nice_step(1.01 * step);
     ticks = multiples(step, low, high);
   }
-  if (ticks.size() < 2) ticks = multiples(nice_step(0.2 * step), low, high);
+  if (ticks.empty() && !finer.empty()) ticks = {finer.front()};
   return ticks;
 }
 
@@ -87,7 +99,7 @@ TickLabels linear_tick_labels(const std::vector<double>& ticks) {
   if (step == 0) step = largest > 0 ? 1e-3 * largest : 1;
 
   TickLabels result;
-  const int exponent = largest > 0 ? static_cast<int>(std::floor(std::log10(largest) + slack)) : 0;
+  const int exponent = largest > 0 ? exponent_of(largest) : 0;
   const bool scaled = exponent >= 5 || exponent <= -3;
   const double factor = scaled ? std::pow(10., exponent) : 1;
   if (scaled) result.factor = "×" + power_of_ten(exponent);
@@ -97,12 +109,12 @@ TickLabels linear_tick_labels(const std::vector<double>& ticks) {
   return result;
 }
 
-std::string log_tick_label(double tick) {
-  const int exponent = static_cast<int>(std::floor(std::log10(tick) + slack));
-  const double mantissa = std::round(tick / std::pow(10., exponent));
-  if (exponent >= -2 && exponent <= 3) return fmt::format("{:.{}f}", tick, std::max(0, -exponent));
-  if (mantissa == 1) return power_of_ten(exponent);
-  return fmt::format("{:.0f}×{}", mantissa, power_of_ten(exponent));
+std::vector<std::string> log_tick_labels(const std::vector<double>& ticks) {
+  const bool plain =
+      std::ranges::all_of(ticks, [](double tick) { return tick > 0.999e-3 && tick < 1.001e4; });
+  std::vector<std::string> labels;
+  for (const double tick : ticks) labels.push_back(plain ? plain_label(tick) : power_label(tick));
+  return labels;
 }
 
 }  // namespace porosph

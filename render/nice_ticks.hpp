@@ -9,7 +9,7 @@ namespace porosph {
 /// Smallest of 1, 2, 5 times a power of ten that is not below `step` (> 0).
 double nice_step(double step);
 
-/// Multiples of a nice step within [low, high], at most `max_count` of them (at least 2 unless low == high).
+/// Multiples of the finest nice step of which at most `max_count` (>= 1) lie within [low, high]; never none.
 std::vector<double> linear_ticks(double low, double high, int max_count);
 
 struct LogTicks {
@@ -26,7 +26,7 @@ struct TickLabels {
 };
 TickLabels linear_tick_labels(const std::vector<double>& ticks);
 
-/// 0.01 to 1000 in plain decimals, other powers of ten as 10⁻⁵, other numbers as 2×10⁻⁵.
-std::string log_tick_label(double tick);
+/// Plain decimals if all ticks lie within 0.001 to 10000, else powers of ten such as 10⁻⁵ or 2×10⁻⁵.
+std::vector<std::string> log_tick_labels(const std::vector<double>& ticks);
 
 }  // namespace porosph
