@@ -42,6 +42,10 @@ struct Cells {
   }
 };
 
+bool inside(const Box& box, Pixel at) {
+  return at.x >= box.x && at.x <= box.right() && at.y >= box.y && at.y <= box.top();
+}
+
 vtkSmartPointer<vtkActor> flat_actor(vtkPolyData* data) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
@@ -78,8 +82,8 @@ vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Poin
   const double pixels_per_metre = plot.box.width / (plot.x.high - plot.x.low);
   Cells cells;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!positions[i].allFinite()) continue;
     const Pixel at = plot.at(positions[i].x(), positions[i].y());
+    if (!inside(plot.box, at)) continue;  // not finite, or so far off that VTK would lose the others' digits
     const Pixel local{at.x - plot.box.x, at.y - plot.box.y};
     if (as_points) {
       cells.add_point(local, colours[i]);

@@ -16,7 +16,7 @@ namespace porosph {
 inline constexpr std::size_t most_quads = 500'000;
 
 /// A square of side `sizes` [m] (one value for all, or one each) with one colour per particle, in pixels from
-/// the lower left corner of the plot's box. Particles whose position is not finite are left out.
+/// the lower left corner of the plot's box. Particles whose centre is outside of the box are left out.
 vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Point>& positions,
                                         const std::vector<double>& sizes, const std::vector<Colour>& colours);
 
