@@ -15,20 +15,20 @@ constexpr double tallest_panel = 680;            // in a fitted figure [pixels]
 constexpr double edge = 14;                      // around the figure [pixels]
 constexpr double bar_gap = 16, gap_after_bar = 22;
 
-struct Grid {
+struct PanelGrid {
   int columns, rows, panels;
   int row(int panel) const { return panel / columns; }
   int column(int panel) const { return panel % columns; }
   bool ends_row(int panel) const { return column(panel) == columns - 1 || panel == panels - 1; }
 };
 
-Grid make_grid(int panels, int columns) { return {columns, (panels + columns - 1) / columns, panels}; }
+PanelGrid make_grid(int panels, int columns) { return {columns, (panels + columns - 1) / columns, panels}; }
 
-bool bar_after(const ContourSpace& space, const Grid& grid, int panel) {
+bool bar_after(const ContourSpace& space, const PanelGrid& grid, int panel) {
   return space.own_scale[panel] || grid.ends_row(panel) || space.own_scale[panel + 1];
 }
 
-std::vector<double> bar_widths(const ContourSpace& space, const Grid& grid) {
+std::vector<double> bar_widths(const ContourSpace& space, const PanelGrid& grid) {
   std::vector<double> widths(grid.columns, 0.);
   for (int panel = 0; panel < grid.panels; ++panel)
     if (bar_after(space, grid, panel))
@@ -41,7 +41,7 @@ struct Fixed {
   double width, height;  ///< pixels that do not grow with the panels
 };
 
-Fixed fixed_parts(const ContourSpace& space, const Grid& grid) {
+Fixed fixed_parts(const ContourSpace& space, const PanelGrid& grid) {
   Fixed fixed{2 * edge, 2 * edge + space.header};
   for (const double bar : bar_widths(space, grid)) fixed.width += bar;
   fixed.width += grid.columns * (space.margins.left + space.margins.right + 2 * space.padding);
@@ -49,38 +49,38 @@ Fixed fixed_parts(const ContourSpace& space, const Grid& grid) {
   return fixed;
 }
 
-double scale_within(const ContourSpace& space, const Grid& grid, double width, double height) {
+double scale_within(const ContourSpace& space, const PanelGrid& grid, double width, double height) {
   const Fixed fixed = fixed_parts(space, grid);
   return std::min((width - fixed.width) / (grid.columns * space.world_width),
                   (height - fixed.height) / (grid.rows * space.world_height));
 }
 
 /// How large the panels come out; a grid with empty cells has to be worth it.
-double merit(const ContourSpace& space, const Grid& grid, double width, double height) {
+double merit(const ContourSpace& space, const PanelGrid& grid, double width, double height) {
   const bool full = grid.columns * grid.rows == grid.panels;
   return (full ? 1 : 0.8) * scale_within(space, grid, width, height);
 }
 
-Grid best_grid(const ContourSpace& space, const ContourSize& size, double width, double height) {
+PanelGrid best_grid(const ContourSpace& space, const ContourSize& size, double width, double height) {
   const int panels = static_cast<int>(space.own_scale.size());
   if (size.columns > 0) return make_grid(panels, std::min(size.columns, panels));
-  Grid best = make_grid(panels, 1);
+  PanelGrid best = make_grid(panels, 1);
   for (int columns = 2; columns <= panels; ++columns) {
-    const Grid grid = make_grid(panels, columns);
+    const PanelGrid grid = make_grid(panels, columns);
     if (merit(space, grid, width, height) > merit(space, best, width, height)) best = grid;
   }
   return best;
 }
 
 /// Frames are wider than the world where their titles need it and there is room.
-Pixel frame_size(const ContourSpace& space, const Grid& grid, double scale, double width) {
+Pixel frame_size(const ContourSpace& space, const PanelGrid& grid, double scale, double width) {
   const double room = (width - fixed_parts(space, grid).width) / grid.columns + 2 * space.padding;
   return {
       std::floor(std::max(scale * space.world_width + 2 * space.padding, std::min(space.least_frame, room))),
       std::floor(scale * space.world_height + 2 * space.padding)};
 }
 
-Box frame_of(const ContourSpace& space, const Grid& grid, int panel, Pixel size, Pixel top_left) {
+Box frame_of(const ContourSpace& space, const PanelGrid& grid, int panel, Pixel size, Pixel top_left) {
   const std::vector<double> bars = bar_widths(space, grid);
   double x = top_left.x + space.margins.left;
   for (int column = 0; column < grid.column(panel); ++column)
@@ -91,7 +91,7 @@ Box frame_of(const ContourSpace& space, const Grid& grid, int panel, Pixel size,
 }
 
 /// A shared bar beside a panel that stands right above another one of the same scale continues into it.
-std::vector<BarPlace> place_bars(const ContourSpace& space, const Grid& grid,
+std::vector<BarPlace> place_bars(const ContourSpace& space, const PanelGrid& grid,
                                  const std::vector<Box>& frames) {
   std::vector<BarPlace> bars;
   for (int column = 0; column < grid.columns; ++column) {
@@ -117,7 +117,7 @@ std::vector<BarPlace> place_bars(const ContourSpace& space, const Grid& grid,
 
 ContourLayout lay_out(const ContourSpace& space, const ContourSize& size) {
   const double width = size.width > 0 ? size.width : widest, height = size.height > 0 ? size.height : tallest;
-  const Grid grid = best_grid(space, size, width, height);
+  const PanelGrid grid = best_grid(space, size, width, height);
   const Fixed fixed = fixed_parts(space, grid);
   ContourLayout layout;
   layout.pixels_per_metre = scale_within(space, grid, width, height);
