@@ -1,0 +1,166 @@
+#include "render/canvas.hpp"
+
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkContextDevice2D.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkStdString.h>
+#include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/font.hpp"
+
+namespace porosph {
+
+namespace {
+
+void apply(vtkTextProperty& property, const TextStyle& style, double scale) {
+  static const std::string font = font_file();
+  property.SetFontFamily(VTK_FONT_FILE);
+  property.SetFontFile(font.c_str());
+  property.SetFontSize(static_cast<int>(std::lround(style.size * scale)));
+  property.SetColor(style.colour[0] / 255., style.colour[1] / 255., style.colour[2] / 255.);
+  property.SetJustification(static_cast<int>(style.horizontal));  // VTK_TEXT_LEFT, _CENTERED, _RIGHT
+  property.SetVerticalJustification(static_cast<int>(style.vertical));
+  property.SetOrientation(style.upright ? 90 : 0);
+  property.SetLineOffset(0);
+}
+
+void apply(vtkPen& vtk_pen, const Pen& pen, double scale) {
+  vtk_pen.SetLineType(vtkPen::SOLID_LINE);
+  vtk_pen.SetColor(pen.colour[0], pen.colour[1], pen.colour[2]);
+  vtk_pen.SetWidth(static_cast<float>(std::max(1L, std::lround(pen.width * scale))));
+}
+
+void apply(vtkBrush& brush, const Fill& fill) {
+  brush.SetColor(fill.colour[0], fill.colour[1], fill.colour[2]);
+  brush.SetOpacityF(fill.opacity);
+}
+
+}  // namespace
+
+Pixel text_extent(const std::string& text, double size) {
+  constexpr double fine = 8;  // measured large, so that whole device pixels do not round the answer
+  vtkNew<vtkTextProperty> property;
+  apply(*property, {.size = size}, fine);
+  int bounds[4] = {0, 0, 0, 0};
+  vtkTextRenderer::GetInstance()->GetBoundingBox(property, vtkStdString(text), bounds, 72);
+  return {(bounds[1] - bounds[0]) / fine, (bounds[3] - bounds[2]) / fine};
+}
+
+double fitting_size(const std::string& text, double size, double width) {
+  const double natural = text_extent(text, size).x;
+  return natural > width ? std::floor(2 * size * width / natural) / 2 : size;
+}
+
+std::vector<std::vector<Pixel>> dashed(std::span<const Pixel> line, std::span<const double> pattern) {
+  std::vector<std::vector<Pixel>> parts;
+  std::size_t dash = 0;
+  double left = pattern[0];  // of the present dash or gap
+  const auto drawing = [&] { return dash % 2 == 0; };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Pixel a = line[i], b = line[i + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const auto along = [&](double s) {
+      return Pixel{a.x + s / length * (b.x - a.x), a.y + s / length * (b.y - a.y)};
+    };
+    if (i == 0) parts.push_back({a});
+    double done = 0;
+    while (length - done > left) {
+      done += left;
+      if (drawing())
+        parts.back().push_back(along(done));
+      else
+        parts.push_back({along(done)});
+      dash = (dash + 1) % (pattern.size() % 2 == 0 ? pattern.size() : 2 * pattern.size());
+      left = pattern[dash % pattern.size()];
+    }
+    left -= length - done;
+    if (drawing()) parts.back().push_back(b);
+  }
+  std::erase_if(parts, [](const auto& part) { return part.size() < 2; });
+  return parts;
+}
+
+std::vector<float> Canvas::device(std::span<const Pixel> points) const {
+  std::vector<float> coordinates;
+  for (const Pixel& point : points) {
+    coordinates.push_back(static_cast<float>(point.x * scale_));
+    coordinates.push_back(static_cast<float>(point.y * scale_));
+  }
+  return coordinates;
+}
+
+void Canvas::solid_line(std::span<const Pixel> points) {
+  std::vector<float> coordinates = device(points);
+  context_.DrawPoly(coordinates.data(), static_cast<int>(points.size()));
+}
+
+void Canvas::line(std::span<const Pixel> points, const Pen& pen) {
+  if (points.size() < 2) return;
+  apply(*context_.GetPen(), pen, scale_);
+  if (pen.dashes.empty()) {
+    solid_line(points);
+  } else {
+    for (const auto& part : dashed(points, pen.dashes)) solid_line(part);
+  }
+}
+
+void Canvas::line(Pixel from, Pixel to, const Pen& pen) { line(std::vector{from, to}, pen); }
+
+void Canvas::polygon(std::span<const Pixel> points, const Fill& fill) {
+  context_.GetPen()->SetLineType(vtkPen::NO_PEN);
+  apply(*context_.GetBrush(), fill);
+  std::vector<float> coordinates = device(points);
+  context_.DrawPolygon(coordinates.data(), static_cast<int>(points.size()));
+}
+
+void Canvas::box(const Box& box, const Fill& fill) {
+  polygon(
+      std::vector<Pixel>{{box.x, box.y}, {box.right(), box.y}, {box.right(), box.top()}, {box.x, box.top()}},
+      fill);
+}
+
+void Canvas::frame(const Box& box, const Pen& pen) {
+  const double reach = 0.5 * pen.width;  // closes the corners
+  line({box.x - reach, box.y}, {box.right() + reach, box.y}, pen);
+  line({box.x - reach, box.top()}, {box.right() + reach, box.top()}, pen);
+  line({box.x, box.y}, {box.x, box.top()}, pen);
+  line({box.right(), box.y}, {box.right(), box.top()}, pen);
+}
+
+void Canvas::disc(Pixel centre, double radius, const Fill& fill, const Pen& edge) {
+  constexpr int corners = 32;
+  std::vector<Pixel> circle;
+  for (int i = 0; i <= corners; ++i) {
+    const double angle = 2 * M_PI * i / corners;
+    circle.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  polygon(std::span(circle).first(corners), fill);
+  line(circle, edge);
+}
+
+void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
+  if (text.empty()) return;
+  apply(*context_.GetTextProp(), style, scale_);
+  context_.DrawString(static_cast<float>(at.x * scale_), static_cast<float>(at.y * scale_),
+                      vtkStdString(text));
+}
+
+void Canvas::clip(const Box& box) {
+  int area[4];  // x, y, width, height
+  area[0] = static_cast<int>(std::lround(box.x * scale_));
+  area[1] = static_cast<int>(std::lround(box.y * scale_));
+  area[2] = static_cast<int>(std::lround(box.width * scale_));
+  area[3] = static_cast<int>(std::lround(box.height * scale_));
+  context_.GetDevice()->SetClipping(area);
+  context_.GetDevice()->EnableClipping(true);
+}
+
+void Canvas::unclip() { context_.GetDevice()->DisableClipping(); }
+
+}  // namespace porosph

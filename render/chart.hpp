@@ -1,0 +1,58 @@
+// Line charts: histories with their theory, and log-log plots of error against work.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colour_range.hpp"
+#include "render/line_style.hpp"
+
+namespace porosph {
+
+/// Points in order. Where a value is not finite (or not positive on a logarithmic axis) the line is
+/// interrupted.
+struct ChartSeries {
+  std::string label;  ///< in the legend; empty: not in it
+  std::vector<double> x, y;
+  std::optional<Colour> colour = {};  ///< default: the next one of series_colour
+  LineStyle line = LineStyle::solid;
+  Marker marker = Marker::none;
+  double width = 2;  ///< [pixels]
+};
+
+/// A horizontal line across the chart, such as a theoretical value.
+struct ReferenceLine {
+  std::string label;
+  double y = 0;
+  LineStyle line = LineStyle::dashed;
+  Colour colour = {90, 90, 90};
+};
+
+struct ChartAxis {
+  std::string title;  ///< with its unit, e.g. "t [s]"
+  bool logarithmic = false;
+  std::optional<ValueRange> range = {};  ///< default: all data and reference lines
+};
+
+struct Chart {
+  std::string title;
+  ChartAxis x, y;
+  std::vector<ChartSeries> series;  ///< the first is drawn on top
+  std::vector<ReferenceLine> references;
+};
+
+struct ChartFigure {
+  std::string title;  ///< may be empty
+  std::vector<Chart> charts;
+  int columns = 1;
+  int width = 0, height = 0;  ///< [pixels]; 0: 760 x 400 per chart
+};
+
+/// Draws the charts as PNG, equal in size, row by row. Same figure, same bytes. May be called from any
+/// thread. Throws std::runtime_error for series of unequal x and y, a range that its axis cannot show, a
+/// picture too small for its charts, a missing font or a file that cannot be written.
+void save_charts(const ChartFigure& figure, const std::filesystem::path& path);
+
+}  // namespace porosph

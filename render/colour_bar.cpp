@@ -1,0 +1,126 @@
+#include "render/colour_bar.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace porosph {
+
+namespace {
+
+constexpr double bar_width = 18, tick_length = 5, label_gap = 5, title_gap = 8, point_height = 14;
+constexpr double swatch = 12, swatch_gap = 16;
+constexpr int colour_count = 256;
+const std::string invalid_label = "no value";
+
+Axis axis_of(const FixedScale& scale) { return {scale.range.low, scale.range.high, false, scale.label}; }
+
+ValueRange given_range(const ColourScale& scale) {
+  const ValueRange range = *scale.range;
+  if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high))
+    throw std::runtime_error(
+        fmt::format("render: colour range {} to {} of {}; allowed are finite bounds, the lower first",
+                    range.low, range.high, scale.label));
+  return range;
+}
+
+/// The part of `box` that the linear scale takes, without points and swatch.
+Box straight_part(const Box& box, const FixedScale& scale) {
+  Box bar{box.x, box.y, bar_width, box.height};
+  const double below =
+      (scale.values_invalid ? swatch + swatch_gap : 0) + (scale.values_below ? point_height : 0);
+  bar.y += below;
+  bar.height -= below + (scale.values_above ? point_height : 0);
+  return bar;
+}
+
+double label_width(const AxisTicks& ticks) {
+  double width = 0;
+  for (const std::string& label : ticks.labels) width = std::max(width, text_extent(label, tick_text).x);
+  return width;
+}
+
+void draw_colours(Canvas& canvas, const Box& bar, const std::vector<Colour>& table) {
+  const double step = bar.height / static_cast<double>(table.size());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    canvas.box({bar.x, bar.y + static_cast<double>(i) * step, bar.width, step}, {.colour = table[i]});
+}
+
+void draw_point(Canvas& canvas, const Box& bar, double base, double tip, Colour colour) {
+  const std::vector<Pixel> triangle = {{bar.x, base}, {bar.centre().x, tip}, {bar.right(), base}};
+  canvas.polygon(triangle, {.colour = colour});
+  canvas.line(triangle, {.colour = {60, 60, 60}});
+}
+
+}  // namespace
+
+FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
+  const ValueRange extent = finite_extent(values);
+  FixedScale fixed{.label = scale.label, .map = scale.map, .range = {}};
+  if (scale.range)
+    fixed.range = given_range(scale);
+  else
+    fixed.range = is_diverging(scale.map) ? centred_range(extent) : rounded_range(extent);
+  const double hair = 1e-6 * (fixed.range.high - fixed.range.low);
+  fixed.values_below = extent.low < fixed.range.low - hair;
+  fixed.values_above = extent.high > fixed.range.high + hair;
+  if (extent.low > extent.high) fixed.values_below = fixed.values_above = false;
+  fixed.values_invalid = std::ranges::any_of(values, [](double value) { return !std::isfinite(value); });
+  return fixed;
+}
+
+std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale) {
+  const std::vector<Colour> table = colour_table(scale.map, colour_count);
+  const double per_value = colour_count / (scale.range.high - scale.range.low);
+  std::vector<Colour> colours;
+  colours.reserve(values.size());
+  for (const double value : values) {
+    if (!std::isfinite(value)) {
+      colours.push_back(invalid_colour(scale.map));
+    } else {
+      const double index = std::clamp((value - scale.range.low) * per_value, 0., colour_count - 1.);
+      colours.push_back(table[static_cast<std::size_t>(index)]);
+    }
+  }
+  return colours;
+}
+
+double colour_bar_width(const FixedScale& scale, double height) {
+  const AxisTicks ticks = fitting_ticks(axis_of(scale), straight_part({0, 0, 0, height}, scale).height, true);
+  double labels = label_width(ticks) + tick_length + label_gap;
+  if (scale.values_invalid) labels = std::max(labels, label_gap + text_extent(invalid_label, tick_text).x);
+  return bar_width + labels + title_gap + 1.4 * title_text;
+}
+
+void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
+  const Box bar = straight_part(box, scale);
+  const std::vector<Colour> table = colour_table(scale.map, colour_count);
+  const Pen edge{.colour = {60, 60, 60}};
+  draw_colours(canvas, bar, table);
+  canvas.frame(bar, edge);
+  if (scale.values_below) draw_point(canvas, bar, bar.y, bar.y - point_height, table.front());
+  if (scale.values_above) draw_point(canvas, bar, bar.top(), bar.top() + point_height, table.back());
+
+  const Axis axis = axis_of(scale);
+  const AxisTicks ticks = fitting_ticks(axis, bar.height, true);
+  for (std::size_t i = 0; i < ticks.major.size(); ++i) {
+    const double y = bar.y + bar.height * axis.fraction(ticks.major[i]);
+    canvas.line({bar.right(), y}, {bar.right() + tick_length, y}, edge);
+    canvas.text({bar.right() + tick_length + label_gap, y}, ticks.labels[i],
+                {.size = tick_text, .horizontal = Align::low});
+  }
+  if (scale.values_invalid) {
+    const Box box_of_swatch{bar.x, box.y, bar_width, swatch};
+    canvas.box(box_of_swatch, {.colour = invalid_colour(scale.map)});
+    canvas.frame(box_of_swatch, edge);
+    canvas.text({bar.right() + label_gap, box_of_swatch.centre().y}, invalid_label,
+                {.size = tick_text, .horizontal = Align::low});
+  }
+  const std::string title = ticks.factor.empty() ? scale.label : scale.label + "  " + ticks.factor;
+  canvas.text({box.x + colour_bar_width(scale, box.height), bar.centre().y}, title,
+              {.size = fitting_size(title, title_text, bar.height), .vertical = Align::low, .upright = true});
+}
+
+}  // namespace porosph

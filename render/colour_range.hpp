@@ -1,0 +1,23 @@
+// The interval of values that a colour bar spans.
+#pragma once
+
+#include <span>
+
+namespace porosph {
+
+struct ValueRange {
+  double low = 0, high = 1;
+  bool operator==(const ValueRange&) const = default;
+};
+
+/// Smallest and largest finite value; low > high if there is none.
+ValueRange finite_extent(std::span<const double> values);
+
+/// The extent widened to round numbers, about a twentieth of it coarse, so that it ends on ticks.
+/// Values that are all equal get an interval around them; an empty extent becomes 0 to 1.
+ValueRange rounded_range(ValueRange extent);
+
+/// As rounded_range, and with zero in the middle (for diverging colour maps).
+ValueRange centred_range(ValueRange extent);
+
+}  // namespace porosph

@@ -1,0 +1,196 @@
+#include "render/scenery.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace porosph {
+
+namespace {
+
+const Colour water_blue{20, 90, 190}, outline_grey{45, 45, 45};
+
+template <typename Visit>
+void for_each_ring(const std::vector<SoilOutline>& soils, const Visit& visit) {
+  for (const SoilOutline& soil : soils) {
+    visit(soil.polygon);
+    for (const Polygon& hole : soil.holes) visit(hole);
+  }
+}
+
+bool inside_ring(const Polygon& ring, Point point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const bool crosses = (ring[i].y() > point.y()) != (ring[j].y() > point.y());
+    if (!crosses) continue;
+    const double t = (point.y() - ring[i].y()) / (ring[j].y() - ring[i].y());
+    if (point.x() < ring[i].x() + t * (ring[j].x() - ring[i].x())) inside = !inside;
+  }
+  return inside;
+}
+
+std::vector<double> crossings(const std::vector<SoilOutline>& soils, double y, double x_from, double x_to) {
+  std::vector<double> cuts = {x_from, x_to};
+  for_each_ring(soils, [&](const Polygon& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      if ((ring[i].y() > y) == (ring[j].y() > y)) continue;
+      const double x =
+          ring[i].x() + (y - ring[i].y()) / (ring[j].y() - ring[i].y()) * (ring[j].x() - ring[i].x());
+      if (x > x_from && x < x_to) cuts.push_back(x);
+    }
+  });
+  std::ranges::sort(cuts);
+  return cuts;
+}
+
+std::vector<Interval> intervals(const std::vector<SoilOutline>& soils, double y, double x_from, double x_to,
+                                bool wanted_inside) {
+  std::vector<Interval> found;
+  const std::vector<double> cuts = crossings(soils, y, x_from, x_to);
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (!(cuts[i + 1] > cuts[i])) continue;
+    if (inside_soil(soils, {0.5 * (cuts[i] + cuts[i + 1]), y}) != wanted_inside) continue;
+    if (!found.empty() && found.back().to == cuts[i])
+      found.back().to = cuts[i + 1];
+    else
+      found.push_back({cuts[i], cuts[i + 1]});
+  }
+  return found;
+}
+
+std::vector<Pixel> closed(const Plot& plot, const Polygon& ring) {
+  std::vector<Pixel> pixels;
+  for (const Point& point : ring) pixels.push_back(plot.at(point.x(), point.y()));
+  pixels.push_back(pixels.front());
+  return pixels;
+}
+
+void draw_outlines(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils) {
+  for_each_ring(soils, [&](const Polygon& ring) {
+    if (!ring.empty()) canvas.line(closed(plot, ring), {.colour = outline_grey, .width = 1.2});
+  });
+}
+
+/// The engineer's sign for a free water surface: a triangle standing on it, shorter strokes beneath.
+void draw_water_sign(Canvas& canvas, Pixel at) {
+  constexpr double half = 7, height = 12;
+  const std::vector<Pixel> triangle = {
+      {at.x, at.y}, {at.x + half, at.y + height}, {at.x - half, at.y + height}, {at.x, at.y}};
+  const Pen pen{.colour = water_blue, .width = 1.3};
+  canvas.polygon(std::span(triangle).first(3), {.colour = white});
+  canvas.line(triangle, pen);
+  canvas.line({at.x - 6, at.y - 4}, {at.x + 6, at.y - 4}, pen);
+  canvas.line({at.x - 3, at.y - 7}, {at.x + 3, at.y - 7}, pen);
+}
+
+void draw_water_level(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
+                      const WaterStretch& stretch) {
+  const auto line = [&](const Interval& part, const Pen& pen) {
+    canvas.line(plot.at(part.from, stretch.level), plot.at(part.to, stretch.level), pen);
+  };
+  for (const Interval& part : soil_intervals(soils, stretch.level, stretch.x_from, stretch.x_to)) {
+    line(part, {.colour = white, .width = 2.6});
+    line(part, {.colour = water_blue, .width = 1.3, .dashes = {6, 4}});
+  }
+  const auto open = free_intervals(soils, stretch.level, stretch.x_from, stretch.x_to);
+  for (const Interval& part : open) {
+    line(part, {.colour = water_blue, .width = 1.5});
+    if (plot.at(part.to, 0).x - plot.at(part.from, 0).x < 24) continue;  // the sign would hide the line
+    const double x =
+        part.from + std::min(0.5, 60 / (plot.at(part.to, 0).x - plot.at(part.from, 0).x)) * part.length();
+    draw_water_sign(canvas, plot.at(x, stretch.level));
+  }
+}
+
+struct Support {
+  Pixel from, to;
+  Pixel along, away;  ///< unit vectors; `away` points away from the soil
+  double length;
+  Pixel at(double s, double offset) const {
+    return {from.x + s * along.x + offset * away.x, from.y + s * along.y + offset * away.y};
+  }
+};
+
+Support support(const Plot& plot, const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
+  const Pixel from = plot.at(boundary.from.x(), boundary.from.y()),
+              to = plot.at(boundary.to.x(), boundary.to.y());
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  Support result{from, to, {(to.x - from.x) / length, (to.y - from.y) / length}, {}, length};
+  const Point middle = 0.5 * (boundary.from + boundary.to), tangent = boundary.to - boundary.from;
+  const Point left = middle + 1e-3 * Point(-tangent.y(), tangent.x());
+  const double side = inside_soil(soils, left) ? -1 : 1;
+  result.away = {-side * result.along.y, side * result.along.x};
+  return result;
+}
+
+void draw_fixed(Canvas& canvas, const Support& wall) {
+  constexpr double spacing = 9, depth = 8;
+  canvas.line(wall.from, wall.to, {.colour = outline_grey, .width = 1.6});
+  for (double s = 0.5 * spacing; s < wall.length; s += spacing)
+    canvas.line(wall.at(s, 0), wall.at(std::max(0., s - depth), depth), {.colour = outline_grey, .width = 1});
+}
+
+void draw_rollers(Canvas& canvas, const Support& wall) {
+  constexpr double radius = 3.5, spacing = 30;
+  const int count = std::max(2, static_cast<int>(wall.length / spacing));
+  for (int i = 0; i < count; ++i)
+    canvas.disc(wall.at((i + 0.5) * wall.length / count, radius + 1), radius, {.colour = white},
+                {.colour = outline_grey});
+  const double offset = 2 * radius + 2;
+  canvas.line(wall.at(0, offset), wall.at(wall.length, offset), {.colour = outline_grey});
+}
+
+void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
+                  const BoundaryCase& boundary) {
+  const Support wall = support(plot, soils, boundary);
+  if (!(wall.length > 0)) return;
+  if (boundary.kind == BoundaryKind::fixed)
+    draw_fixed(canvas, wall);
+  else
+    draw_rollers(canvas, wall);
+}
+
+void draw_probe(Canvas& canvas, const Plot& plot, const ProbeCase& probe) {
+  constexpr double radius = 4, gap = 5;
+  const Pixel at = plot.at(probe.position.x(), probe.position.y());
+  const Pixel extent = text_extent(probe.name, title_text);
+  const bool flip = at.x + radius + gap + extent.x + 6 > plot.box.right();
+  const double x = flip ? at.x - radius - gap - extent.x : at.x + radius + gap;
+  const double y = std::clamp(at.y, plot.box.y + 10, plot.box.top() - 10);
+  if (!probe.name.empty()) {
+    canvas.box({x - 3, y - 9, extent.x + 6, 18}, {.colour = white, .opacity = 0.8});
+    canvas.text({x, y}, probe.name, {.size = title_text, .horizontal = Align::low});
+  }
+  canvas.disc(at, radius, {.colour = white}, {.colour = black, .width = 1.4});
+}
+
+}  // namespace
+
+bool inside_soil(const std::vector<SoilOutline>& soils, Point point) {
+  return std::ranges::any_of(soils, [&](const SoilOutline& soil) {
+    const auto contains = [&](const Polygon& ring) { return !ring.empty() && inside_ring(ring, point); };
+    return contains(soil.polygon) && std::ranges::none_of(soil.holes, contains);
+  });
+}
+
+std::vector<Interval> soil_intervals(const std::vector<SoilOutline>& soils, double y, double x_from,
+                                     double x_to) {
+  return intervals(soils, y, x_from, x_to, true);
+}
+
+std::vector<Interval> free_intervals(const std::vector<SoilOutline>& soils, double y, double x_from,
+                                     double x_to) {
+  return intervals(soils, y, x_from, x_to, false);
+}
+
+void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to) {
+  draw_outlines(canvas, plot, scenery.soils);
+  for (WaterStretch stretch : scenery.water) {
+    stretch.x_from = std::max(stretch.x_from, x_from);
+    stretch.x_to = std::min(stretch.x_to, x_to);
+    if (stretch.x_from < stretch.x_to) draw_water_level(canvas, plot, scenery.soils, stretch);
+  }
+  for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
+  for (const ProbeCase& probe : scenery.probes) draw_probe(canvas, plot, probe);
+}
+
+}  // namespace porosph

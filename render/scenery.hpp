@@ -1,0 +1,41 @@
+// What stands around the particles in a contour picture: outlines, water, supports, probes.
+#pragma once
+
+#include <vector>
+
+#include "render/axes.hpp"
+#include "solver/case/case.hpp"
+
+namespace porosph {
+
+struct SoilOutline {
+  Polygon polygon;
+  std::vector<Polygon> holes;
+};
+
+struct Scenery {
+  std::vector<SoilOutline> soils;        ///< [m]
+  std::vector<WaterStretch> water;       ///< [m]
+  std::vector<BoundaryCase> boundaries;  ///< [m]
+  std::vector<ProbeCase> probes;         ///< [m]
+};
+
+struct Interval {
+  double from = 0, to = 0;
+  double length() const { return to - from; }
+};
+
+/// The parts of the horizontal line at `y` between `x_from` and `x_to` that lie inside the soils (or outside
+/// of them).
+std::vector<Interval> soil_intervals(const std::vector<SoilOutline>& soils, double y, double x_from,
+                                     double x_to);
+std::vector<Interval> free_intervals(const std::vector<SoilOutline>& soils, double y, double x_from,
+                                     double x_to);
+
+bool inside_soil(const std::vector<SoilOutline>& soils, Point point);
+
+/// Soil outlines, water level with its triangle, supports on the side away from the soil, probes. Lines only:
+/// water is filled beneath the particles. Water is drawn from `x_from` to `x_to` at most.
+void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to);
+
+}  // namespace porosph
