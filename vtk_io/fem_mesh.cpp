@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 #include <stdexcept>
 
@@ -32,11 +33,23 @@ void surround(vtkPoints* points) {
   }
 }
 
-/// The triangles of all points, with the edges kept where VTK can.
-std::vector<std::array<int, 3>> triangulate(const MeshPoints& mesh) {
+/// The points, moved by up to `shift` [m]: vtkDelaunay2D leaves flat triangles between points that are
+/// collinear but for rounding. Only the connections are taken from the moved points.
+vtkNew<vtkPoints> moved(const std::vector<Point>& originals, double shift, unsigned seed) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (const Point& p : mesh.points) points->InsertNextPoint(p.x(), p.y(), 0);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-shift, shift);
+  for (const Point& p : originals) {
+    const double x = p.x() + move(random), y = p.y() + move(random);
+    points->InsertNextPoint(x, y, 0);
+  }
+  return points;
+}
+
+/// The triangles of all points, with the edges kept where VTK can.
+std::vector<std::array<int, 3>> triangulate(const MeshPoints& mesh, double h, unsigned seed) {
+  const auto points = moved(mesh.points, 1e-7 * h, seed);
   surround(points);
   vtkNew<vtkCellArray> edges;
   for (const auto& [a, b] : mesh.edges) {
@@ -88,16 +101,38 @@ Mesh inside_soils(const Case& scene, const std::vector<Point>& points,
   return mesh;
 }
 
-void check_edges(const MeshPoints& wanted, const std::vector<std::array<int, 3>>& triangles) {
+/// Indices of the edges that no triangle has.
+std::vector<std::size_t> lost_edges(const MeshPoints& wanted,
+                                    const std::vector<std::array<int, 3>>& triangles) {
   std::set<std::pair<int, int>> edges;
   for (const auto& v : triangles)
     for (int e = 0; e < 3; ++e) edges.insert(std::minmax(v[e], v[(e + 1) % 3]));
-  for (const auto& [a, b] : wanted.edges)
-    if (!edges.contains(std::minmax(a, b)))
-      throw std::runtime_error(fmt::format(
-          "mesh: the triangulation lost the line from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}); try another edge "
-          "length",
-          wanted.points[a].x(), wanted.points[a].y(), wanted.points[b].x(), wanted.points[b].y()));
+  std::vector<std::size_t> lost;
+  for (std::size_t i = 0; i < wanted.edges.size(); ++i)
+    if (!edges.contains(std::minmax(wanted.edges[i][0], wanted.edges[i][1]))) lost.push_back(i);
+  return lost;
+}
+
+/// Triangles that have all the edges. What VTK did not recover is halved and tried again with other
+/// movements.
+std::vector<std::array<int, 3>> triangulate_with_edges(MeshPoints& mesh, double h) {
+  constexpr unsigned tries = 6;
+  std::vector<std::size_t> lost;
+  for (unsigned seed = 0; seed < tries; ++seed) {
+    auto triangles = triangulate(mesh, h, seed);
+    lost = lost_edges(mesh, triangles);
+    if (lost.empty()) return triangles;
+    for (const std::size_t edge : lost) {
+      const auto [a, b] = mesh.edges[edge];
+      const int middle = static_cast<int>(mesh.points.size());
+      mesh.points.push_back((mesh.points[a] + mesh.points[b]) / 2);
+      mesh.edges[edge] = {a, middle};
+      mesh.edges.push_back({middle, b});
+    }
+  }
+  const Point& at = mesh.points[mesh.edges[lost.front()][0]];
+  throw std::runtime_error(fmt::format(
+      "mesh: the triangulation lost the line at ({:.6g}, {:.6g}); try another edge length", at.x(), at.y()));
 }
 
 double area(const Polygon& polygon) {
@@ -129,9 +164,8 @@ Mesh mesh_case(const Case& scene, double h) {
   if (!(h > 0) || !std::isfinite(h))
     throw std::runtime_error(fmt::format("mesh: edge length is {} m; it must be finite and > 0", h));
   const MeshLines lines = mesh_lines(scene);
-  const MeshPoints points = mesh_points(scene, lines, mesh_size(scene, lines, h));
-  const auto triangles = triangulate(points);
-  check_edges(points, triangles);
+  MeshPoints points = mesh_points(scene, lines, mesh_size(scene, lines, h));
+  const auto triangles = triangulate_with_edges(points, h);
   Mesh mesh = inside_soils(scene, points.points, triangles);
   check_area(scene, mesh);
   check_mesh(mesh, static_cast<int>(scene.soils.size()));

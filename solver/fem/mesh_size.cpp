@@ -65,18 +65,30 @@ double MeshSize::operator()(const Point& p) const {
 MeshSize mesh_size(const Case& scene, const MeshLines& mesh, double h) {
   const double tiny = 1e-8 * extent(mesh.points);
   std::vector<std::vector<Spoke>> spokes(mesh.points.size());
+  std::vector<Strength> inner(mesh.points.size(), Strength::regular);  // of lines that end in the point
   for (const MeshLine& line : mesh.lines) {
-    if (!line.outline()) continue;
     const Point &a = mesh.points[line.from], &b = mesh.points[line.to];
+    if (!line.outline()) {
+      for (const int end : {line.from, line.to})
+        inner[end] = std::max(inner[end], line.left != line.right ? Strength::singular : Strength::weak);
+      continue;
+    }
     const Point along = (b - a).normalized();
     const Held is_held = held(scene.boundaries, a, b, tiny);
     spokes[line.from].push_back({along, line.left >= 0, is_held});
     spokes[line.to].push_back({-along, line.right >= 0, is_held});
   }
   MeshSize size{h, {}};
+  for (const MeshLine& line : mesh.lines) {
+    const double length = (mesh.points[line.to] - mesh.points[line.from]).norm();
+    if (length >= h) continue;
+    for (const int end : {line.from, line.to}) size.corners.push_back({mesh.points[end], length});
+  }
   for (std::size_t p = 0; p < spokes.size(); ++p) {
     if (spokes[p].empty()) continue;
-    const Strength is = strength(spokes[p]);
+    const bool on_roller = std::all_of(spokes[p].begin(), spokes[p].end(),
+                                       [](const Spoke& s) { return s.is_held == Held::roller; });
+    const Strength is = on_roller ? strength(spokes[p]) : std::max(inner[p], strength(spokes[p]));
     if (is == Strength::singular) size.corners.push_back({mesh.points[p], h / 64});
     if (is == Strength::weak) size.corners.push_back({mesh.points[p], h / 8});
   }

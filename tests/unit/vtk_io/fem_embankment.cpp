@@ -58,10 +58,9 @@ TEST_CASE("The embankment agrees with converged values") {
   INFO("triangles " << solution.mesh().triangles.size() << ", unknowns " << solution.unknowns << ", seconds "
                     << solution.seconds << ", worst stress " << worst_stress << " Pa, displacement "
                     << worst_displacement / largest);
-  CHECK(worst_stress < 200);
-  CHECK(worst_displacement < 1e-3 * largest);
+  CHECK(worst_stress < 50);  // Pa; the largest stress is 200 kPa
+  CHECK(worst_displacement < 1e-5 * largest);
   CHECK(worst_pressure < 0.1);
-  CHECK(solution.seconds < 10);
 }
 
 TEST_CASE("The embankment's point A, to the digits that are known") {

@@ -41,14 +41,35 @@ TEST_CASE("The embankment's mesh has good triangles, small ones at the toes") {
 TEST_CASE("Only corners with lacking smoothness are refined") {
   const Case scene = test::embankment();
   const MeshSize size = mesh_size(scene, mesh_lines(scene), 0.64);
-  CHECK(size.corners.size() == 4);
+  CHECK(size.corners.size() == 6);
   CHECK(size({10, 6}) == Approx(0.01));
   CHECK(size({33, 6}) == Approx(0.01));
   CHECK(size({15, 11}) == Approx(0.08));
   CHECK(size({20.5, 11}) == Approx(0.08));
+  CHECK(size({12, 8}) == Approx(0.08));
+  CHECK(size({28, 8}) == Approx(0.08));
   CHECK(size({15, 10}) == Approx(0.5));
-  for (const Point& regular : {Point(0, 0), Point(0, 6), Point(44.4, 6), Point(12, 8), Point(20, 4)})
+  for (const Point& regular : {Point(0, 0), Point(0, 6), Point(44.4, 6), Point(20, 8), Point(20, 4)})
     CHECK(size(regular) == 0.64);
+}
+
+TEST_CASE("Any outline is meshed, at any edge length") {
+  Case scene = test::layers(false);
+  SoilCase& soil = scene.soils[0];
+  scene.soils.pop_back();
+  soil.polygon.clear();
+  for (int i = 0; i < 80; ++i) {
+    const double angle = i * M_PI / 40;
+    soil.polygon.emplace_back(10 * std::cos(angle), 6 * std::sin(angle) + 0.3 * std::sin(5 * angle));
+  }
+  soil.holes = {{}};
+  for (int i = 0; i < 40; ++i)
+    soil.holes[0].emplace_back(3 + 2 * std::cos(i * M_PI / 20), 1 + std::sin(i * M_PI / 20));
+  scene.water.stretches[0].level = 1.2;
+  for (double h = 0.5; h < 4; h *= 1.09) {
+    CAPTURE(h);
+    CHECK(smallest_angle(mesh_case(scene, h)) > 15);
+  }
 }
 
 TEST_CASE("The mesh follows soils, holes and water") {
