@@ -15,6 +15,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/case/shapes.hpp"
 #include "solver/fem/mesh_points.hpp"
 
 namespace porosph {
@@ -135,13 +136,6 @@ std::vector<std::array<int, 3>> triangulate_with_edges(MeshPoints& mesh, double 
       "mesh: the triangulation lost the line at ({:.6g}, {:.6g}); try another edge length", at.x(), at.y()));
 }
 
-double area(const Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    twice += twice_area(polygon[0], polygon[i], polygon[i + 1]);
-  return std::abs(twice) / 2;
-}
-
 void check_area(const Case& scene, const Mesh& mesh) {
   std::vector<double> filled(scene.soils.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -149,8 +143,7 @@ void check_area(const Case& scene, const Mesh& mesh) {
     filled[mesh.soils[t]] += twice_area(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]) / 2;
   }
   for (std::size_t s = 0; s < filled.size(); ++s) {
-    double wanted = area(scene.soils[s].polygon);
-    for (const Polygon& hole : scene.soils[s].holes) wanted -= area(hole);
+    const double wanted = area(scene.soils[s]);
     if (std::abs(filled[s] - wanted) > 1e-8 * wanted)
       throw std::runtime_error(fmt::format(
           "mesh: the triangles of soil '{}' cover {:.9g} m2 of its {:.9g} m2; try another edge length",

@@ -1,8 +1,9 @@
 #include "vtk_io/fem_vtu.hpp"
 
-#include <fmt/format.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -11,9 +12,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <stdexcept>
+#include <utility>
+
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/vtk_errors.hpp"
 
 namespace porosph {
 namespace {
@@ -95,18 +99,24 @@ vtkNew<vtkUnstructuredGrid> grid_of(const FemSolution& solution) {
 
 }  // namespace
 
-void write_fem_vtu(const FemSolution& solution, const std::filesystem::path& path) {
-  const auto failed = [&] { return std::runtime_error(fmt::format("cannot write {}", path.string())); };
-  if (!std::ofstream(path)) throw failed();  // VTK would explain itself at length on the terminal
+void write_fem_vtu(const FemSolution& solution, const std::filesystem::path& file) {
   const auto grid = grid_of(solution);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(path.c_str());
+  vtkNew<VtkErrors> errors;
+  errors->watch(*writer);
+  errors->watch(*writer->GetExecutive());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
   writer->SetHeaderTypeToUInt64();
-  if (writer->Write() != 1 || writer->GetErrorCode() != 0) throw failed();
+  replace_file(file, [&](const std::filesystem::path& temporary) {
+    writer->SetFileName(temporary.c_str());
+    const bool written = writer->Write() != 0;
+    if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError)
+      throw WriteError(file, vtkErrorCode::GetStringFromErrorCode(code));
+    if (!written || errors->any()) throw WriteError(file, errors->first());
+  });
 }
 
 }  // namespace porosph

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/case/shapes.hpp"
 #include "solver/fem/constraints.hpp"
 #include "solver/fem/mesh.hpp"
 
@@ -37,15 +38,6 @@ void add_water(const WaterCase& water, const Eigen::AlignedBox2d& box, std::vect
   }
 }
 
-/// Where two segments that are not parallel cross or touch.
-void add_crossing(const Segment& s, const Segment& t, double tiny, std::vector<Point>& points) {
-  const Point u = s.b - s.a, v = t.b - t.a, w = t.a - s.a;
-  const double cross = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(cross) <= 1e-12 * u.norm() * v.norm()) return;
-  const Point at = s.a + u * ((w.x() * v.y() - w.y() * v.x()) / cross);
-  if (on_segment(at, s.a, s.b, tiny) && on_segment(at, t.a, t.b, tiny)) points.push_back(at);
-}
-
 /// Index of the point, added if it is new.
 int index_of(const Point& p, double tiny, std::vector<Point>& points) {
   const auto found =
@@ -53,17 +45,6 @@ int index_of(const Point& p, double tiny, std::vector<Point>& points) {
   if (found != points.end()) return static_cast<int>(found - points.begin());
   points.push_back(p);
   return static_cast<int>(points.size()) - 1;
-}
-
-bool inside(const Polygon& polygon, const Point& p) {
-  bool in = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Point &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      in = !in;
-  }
-  return in;
 }
 
 std::vector<Segment> segments_of(const Case& scene, const Eigen::AlignedBox2d& box) {
@@ -77,7 +58,7 @@ std::vector<Segment> segments_of(const Case& scene, const Eigen::AlignedBox2d& b
 }
 
 /// All points where the segments end or meet, and where boundaries end.
-std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Case& scene, double tiny) {
+std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Case& scene) {
   std::vector<Point> points;
   for (const Segment& s : segments) {
     points.push_back(s.a);
@@ -88,7 +69,9 @@ std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Ca
     points.push_back(boundary.to);
   }
   for (std::size_t i = 0; i < segments.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) add_crossing(segments[i], segments[j], tiny, points);
+    for (std::size_t j = 0; j < i; ++j)
+      for (const Point& p : crossings(segments[i].a, segments[i].b, segments[j].a, segments[j].b))
+        points.push_back(p);
   return points;
 }
 
@@ -97,14 +80,10 @@ std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Ca
 int soil_at(const Case& scene, const Point& p) {
   int found = -1;
   for (int s = 0; s < static_cast<int>(scene.soils.size()); ++s) {
-    const SoilCase& soil = scene.soils[s];
-    const auto& holes = soil.holes;
-    if (!inside(soil.polygon, p) ||
-        std::any_of(holes.begin(), holes.end(), [&](const Polygon& hole) { return inside(hole, p); }))
-      continue;
+    if (distance(p, scene.soils[s]) > 0) continue;
     if (found >= 0)
       throw std::runtime_error(fmt::format("mesh: soils '{}' and '{}' overlap around ({:.6g}, {:.6g})",
-                                           scene.soils[found].name, soil.name, p.x(), p.y()));
+                                           scene.soils[found].name, scene.soils[s].name, p.x(), p.y()));
     found = s;
   }
   return found;
@@ -117,7 +96,7 @@ MeshLines mesh_lines(const Case& scene) {
   if (box.isEmpty()) throw std::runtime_error("mesh: the case has no soil");
   const double tiny = 1e-8 * box.diagonal().norm(), aside = 1e-6 * box.diagonal().norm();
   const std::vector<Segment> segments = segments_of(scene, box);
-  const std::vector<Point> stops = meeting_points(segments, scene, tiny);
+  const std::vector<Point> stops = meeting_points(segments, scene);
 
   MeshLines mesh;
   std::set<std::pair<int, int>> known;

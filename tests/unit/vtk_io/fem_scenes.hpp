@@ -1,28 +1,12 @@
 // Cases for the tests of meshes and files of the finite-element reference.
 #pragma once
 
-#include "solver/case/case.hpp"
+#include "solver/case/case_file.hpp"
 
 namespace porosph::test {
 
-/// The embankment: foundation 44.4 m x 6 m and a trapezoid up to y = 11, water level 8, rollers at both
-/// sides, fixed bottom.
-inline Case embankment() {
-  Case scene;
-  SoilCase soil;
-  soil.name = "soil";
-  soil.polygon = {{0, 0}, {44.4, 0}, {44.4, 6}, {33, 6}, {20.5, 11}, {15, 11}, {10, 6}, {0, 6}};
-  soil.youngs_modulus = 15e6;
-  soil.poissons_ratio = 0.25;
-  soil.unit_weight_saturated = 20e3;
-  soil.unit_weight_unsaturated = 18.6e3;
-  scene.soils = {soil};
-  scene.water.stretches = {{-never, never, 8}};
-  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 6}},
-                      {BoundaryKind::roller, {44.4, 0}, {44.4, 6}},
-                      {BoundaryKind::fixed, {0, 0}, {44.4, 0}}};
-  return scene;
-}
+/// The embankment as it is shipped.
+inline Case embankment() { return read_case(POROSPH_SOURCE_DIR "/cases/embankment.toml"); }
 
 /// A layered column 4 m wide and 6 m high: clay of 2 m below sand, around a square hole if wanted.
 inline Case layers(bool hole) {

@@ -13,7 +13,9 @@
 
 #include "fem_scenes.hpp"
 #include "solver/fem/solve.hpp"
+#include "tests/unit/run_folder/temporary_folder.hpp"
 #include "vtk_io/fem_mesh.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
 
 using namespace porosph;
 using Catch::Matchers::Contains;
@@ -37,12 +39,12 @@ double interpolate(vtkUnstructuredGrid* grid, vtkIdType cell, const double* para
 TEST_CASE("VTK reads back the reference: places, displacement and stress inside the curved triangles") {
   const Case scene = test::layers(true);
   const FemSolution solution = solve_fem(scene, mesh_case(scene, 0.7));
-  const auto path = std::filesystem::temp_directory_path() / "porosph_fem_test.vtu";
+  const test::TemporaryFolder folder;
+  const auto path = folder / "fem.vtu";
   write_fem_vtu(solution, path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  std::filesystem::remove(path);
   vtkUnstructuredGrid* grid = reader->GetOutput();
   REQUIRE(grid->GetNumberOfCells() == static_cast<vtkIdType>(solution.mesh().triangles.size()));
   const auto stress = grid->GetPointData()->GetArray("EffectiveStress");
@@ -74,12 +76,12 @@ TEST_CASE("VTK reads back the reference: places, displacement and stress inside 
 TEST_CASE("Each point of the file holds what the solution says there, and soils keep their own stress") {
   const Case scene = test::layers(false);
   const FemSolution solution = solve_fem(scene, mesh_case(scene, 1));
-  const auto path = std::filesystem::temp_directory_path() / "porosph_fem_points_test.vtu";
+  const test::TemporaryFolder folder;
+  const auto path = folder / "fem.vtu";
   write_fem_vtu(solution, path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  std::filesystem::remove(path);
   vtkPointData* data = reader->GetOutput()->GetPointData();
   int interface_points[2] = {0, 0};
   for (vtkIdType i = 0; i < reader->GetOutput()->GetNumberOfPoints(); ++i) {
@@ -103,6 +105,10 @@ TEST_CASE("Each point of the file holds what the solution says there, and soils 
 
 TEST_CASE("A file that cannot be written is an error that names it") {
   const Case scene = test::layers(false);
-  CHECK_THROWS_WITH(write_fem_vtu(solve_fem(scene, mesh_case(scene, 2)), "/nowhere/fem.vtu"),
-                    Contains("/nowhere/fem.vtu"));
+  const FemSolution solution = solve_fem(scene, mesh_case(scene, 2));
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_AS(write_fem_vtu(solution, folder / "no such folder/fem.vtu"), WriteError);
+  const test::FileSizeLimit full_disk(2000);
+  CHECK_THROWS_WITH(write_fem_vtu(solution, folder / "fem.vtu"), Contains("fem.vtu"));
+  CHECK(test::names_in(folder.path()).empty());
 }
