@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "solver/fem/constraints.hpp"
 #include "solver/fem/mesh.hpp"
