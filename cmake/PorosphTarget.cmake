@@ -8,5 +8,6 @@ function(porosph_flags target)
     -Wno-restrict  # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
     $<$<BOOL:${POROSPH_WERROR}>:-Werror>
     $<$<CONFIG:Release>:-O3>
+    -fno-math-errno -fno-trapping-math  # square roots and comparisons in vector code; no result changes
     $<$<BOOL:${POROSPH_NATIVE}>:-march=native>)
 endfunction()

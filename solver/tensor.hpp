@@ -19,6 +19,16 @@ struct Stress {
   Stress operator*(double s) const { return {xx * s, yy * s, zz * s, xy * s}; }
 };
 
+/// Gradient of a plane vector field, d(first)/d(second). Plain numbers, so that loops over it become vector code.
+struct Gradient {
+  double xx = 0, xy = 0, yx = 0, yy = 0;
+
+  Gradient() = default;
+  Gradient(double a, double b, double c, double d) : xx(a), xy(b), yx(c), yy(d) {}
+  Gradient(const Mat2& m) : xx(m(0, 0)), xy(m(0, 1)), yx(m(1, 0)), yy(m(1, 1)) {}  // NOLINT: the same thing
+  double trace() const { return xx + yy; }
+};
+
 /// Inverse of a 2 x 2 matrix; the caller guarantees that it is regular.
 inline Mat2 inverse(const Mat2& m) {
   const double d = 1 / (m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0));

@@ -20,32 +20,29 @@ struct LinearElastic {
   /// M = K + 4 G / 3, modulus of one-dimensional compression [Pa].
   double constrained_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }
 
-  /// Effective stress rate of eq. (28) for the strain rate D [Pa/s]; the rotation terms of eq. (30) come apart.
-  Stress elastic_rate(const Mat2& strain_rate) const {
-    const double volumetric = strain_rate(0, 0) + strain_rate(1, 1);
-    const double lambda = bulk_modulus - 2 * shear_modulus / 3;
-    const double g2 = 2 * shear_modulus;
-    return {lambda * volumetric + g2 * strain_rate(0, 0), lambda * volumetric + g2 * strain_rate(1, 1),
-            lambda * volumetric, g2 * strain_rate(0, 1)};
+  /// Effective stress rate of eq. (28) for the strain rate D, the symmetric part of the velocity gradient [Pa/s]; the
+  /// rotation terms of eq. (30) come apart.
+  Stress elastic_rate(const Gradient& velocity_gradient) const {
+    const double lambda = bulk_modulus - 2 * shear_modulus / 3, g2 = 2 * shear_modulus;
+    const double pressure_rate = lambda * velocity_gradient.trace();
+    return {pressure_rate + g2 * velocity_gradient.xx, pressure_rate + g2 * velocity_gradient.yy, pressure_rate,
+            shear_modulus * (velocity_gradient.xy + velocity_gradient.yx)};
   }
 
-  /// Effective stress after a step dt [s] with the velocity gradient L_ij = dv_i/dx_j at the middle of the step [1/s]:
-  /// the old stress turned by the step's rotation (Hughes and Winget 1980: exact for a rigid rotation), plus eq. (28).
-  Stress update(const Stress& old, const Mat2& velocity_gradient, double dt) const {
-    const Mat2 strain_rate = 0.5 * (velocity_gradient + velocity_gradient.transpose());
-    const double spin = 0.5 * (velocity_gradient(1, 0) - velocity_gradient(0, 1));  // omega_yx of eq. (31)
-    Stress stress = turned(old, 0.5 * spin * dt) + elastic_rate(strain_rate) * dt;
-    if (no_tension) {
-      const double tension = std::max(0.0, stress.mean());
-      stress.xx -= tension, stress.yy -= tension, stress.zz -= tension;
-    }
+  /// Effective stress after a step dt [s] with the velocity gradient dv_i/dx_j at the middle of the step [1/s]: the old
+  /// stress turned by the step's rotation (Hughes and Winget 1980: exact for a rigid rotation), plus eq. (28).
+  Stress update(const Stress& old, const Gradient& velocity_gradient, double dt) const {
+    const double spin = 0.5 * (velocity_gradient.yx - velocity_gradient.xy);  // omega_yx of eq. (31)
+    Stress stress = turned(old, 0.5 * spin * dt) + elastic_rate(velocity_gradient) * dt;
+    const double tension = no_tension ? std::max(0.0, stress.mean()) : 0.0;
+    stress.xx -= tension, stress.yy -= tension, stress.zz -= tension;
     return stress;
   }
 
  private:
   /// Stress turned counter-clockwise by the angle whose half has the tangent t.
   static Stress turned(const Stress& s, double t) {
-    const double c = (1 - t * t) / (1 + t * t), sn = 2 * t / (1 + t * t);
+    const double scale = 1 / (1 + t * t), c = (1 - t * t) * scale, sn = 2 * t * scale;
     const double shear = 2 * c * sn * s.xy;
     return {c * c * s.xx + sn * sn * s.yy - shear, sn * sn * s.xx + c * c * s.yy + shear, s.zz,
             c * sn * (s.xx - s.yy) + (c * c - sn * sn) * s.xy};

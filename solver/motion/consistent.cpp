@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "solver/correction/kernel_correction.hpp"
-#include "solver/motion/soil_step.hpp"
+#include "solver/motion/material_block.hpp"
 #include "solver/parallel.hpp"
-#include "solver/stabilisation/bulk_viscosity.hpp"
 
 namespace porosph {
 namespace {
@@ -155,11 +154,7 @@ void ConsistentDynamics::start_from_reference() {
   records_.assign(points_.size(), Record{});
   velocities_.resize(points_.size());
   fill_image_velocities();
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    const Mat2 rate = deformation_rate(a);
-    write_record(a, rate, bulk_viscous(a, rate));
-  }
+  strain_all(0);
   largest_strain_ = 0;
   travel_ = 0;
 }
@@ -182,32 +177,81 @@ bool ConsistentDynamics::strangers_are_near() {
 
 /// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
 Mat2 ConsistentDynamics::deformation_rate(std::size_t a) const {
-  double xx = 0, xy = 0, yx = 0, yy = 0;
-  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-    const Vec2& v = velocities_[neighbours_.index[k]];
-    const PairGradient g = gradient_[k];
-    xx += v.x() * g.x, xy += v.x() * g.y;
-    yx += v.y() * g.x, yy += v.y() * g.y;
+  const double* velocities = velocities_[0].data();
+  const auto velocity = [&](std::int64_t k) { return load_pair(velocities + 2 * neighbours_.index[k]); };
+  const PairGradient* gradient = gradient_.data();
+  Pair x{}, y{}, x2{}, y2{};  // sums of v G_x and of v G_y, two of each
+  const std::int64_t last = neighbours_.begin[a + 1];
+  std::int64_t k = neighbours_.begin[a];
+  for (; k + 1 < last; k += 2) {
+    const Pair v = velocity(k), v2 = velocity(k + 1);
+    x += v * gradient[k].x, x2 += v2 * gradient[k + 1].x;
+    y += v * gradient[k].y, y2 += v2 * gradient[k + 1].y;
   }
-  const Mat2 sum = (Mat2() << xx, xy, yx, yy).finished() - velocities_[a] * gradient_sum_[a].transpose();
+  if (k < last) x += velocity(k) * gradient[k].x, y += velocity(k) * gradient[k].y;
+  x += x2, y += y2;
+  const Mat2 sum = (Mat2() << x[0], y[0], x[1], y[1]).finished() -
+                   velocities_[a] * gradient_sum_[a].transpose();
   return sum * correction_[a].transpose();
 }
 
-Mat2 ConsistentDynamics::bulk_viscous(std::size_t a, const Mat2& velocity_gradient) const {
-  const Particles& p = model_.particles;
-  const double modulus = model_.soils[p.soil[a]].constrained_modulus();
-  return bulk_viscosity(formulation_.bulk_viscosity, std::sqrt(modulus * p.density[a]) * model_.smoothing_length,
-                        velocity_gradient.trace()) *
-         Mat2::Identity();
+/// Stress, deformation and records of particles first to last - 1 after a step dt with the present velocities.
+/// Returns the largest |F - I| and the largest speed squared among them.
+ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, std::size_t last, double dt) {
+  Particles& p = model_.particles;
+  MaterialBlock block;
+  for (std::size_t i = 0; i < last - first; ++i) {
+    const std::size_t a = first + i;
+    const Mat2 rate = deformation_rate(a);
+    const LinearElastic& soil = model_.soils[p.soil[a]];
+    const Stress& s = p.stress[a];
+    const Mat2& f = deformation_[a];
+    block.rate[0][i] = rate(0, 0), block.rate[1][i] = rate(0, 1);
+    block.rate[2][i] = rate(1, 0), block.rate[3][i] = rate(1, 1);
+    block.deformation[0][i] = f(0, 0), block.deformation[1][i] = f(0, 1);
+    block.deformation[2][i] = f(1, 0), block.deformation[3][i] = f(1, 1);
+    block.stress[0][i] = s.xx, block.stress[1][i] = s.yy, block.stress[2][i] = s.zz, block.stress[3][i] = s.xy;
+    block.shear_modulus[i] = soil.shear_modulus, block.bulk_modulus[i] = soil.bulk_modulus;
+    block.no_tension[i] = soil.no_tension ? 1.0 : 0.0;
+    block.reference_density[i] = reference_density_[a];
+  }
+  block.advance(dt, formulation_.bulk_viscosity * model_.smoothing_length);
+  Largest largest;
+  for (std::size_t i = 0; i < last - first; ++i) {
+    const std::size_t a = first + i;
+    const double mu = zero_energy_viscosity_;
+    Mat2& f = deformation_[a];
+    f << block.deformation[0][i], block.deformation[1][i], block.deformation[2][i], block.deformation[3][i];
+    p.stress[a] = {block.stress[0][i], block.stress[1][i], block.stress[2][i], block.stress[3][i]};
+    p.density[a] = block.density[i];
+    Mat2& piola = piola_[a];
+    piola << block.piola[0][i], block.piola[1][i], block.piola[2][i], block.piola[3][i];
+    const Mat2& l = correction_[a];
+    Lanes& q = records_[a].q;
+    q[t_xx] = piola(0, 0) * l(0, 0) + piola(0, 1) * l(1, 0) - mu * block.rate[0][i];
+    q[t_xy] = piola(0, 0) * l(0, 1) + piola(0, 1) * l(1, 1) - mu * block.rate[1][i];
+    q[t_yx] = piola(1, 0) * l(0, 0) + piola(1, 1) * l(1, 0) - mu * block.rate[2][i];
+    q[t_yy] = piola(1, 0) * l(0, 1) + piola(1, 1) * l(1, 1) - mu * block.rate[3][i];
+    q[v_x] = velocities_[a].x(), q[v_y] = velocities_[a].y();
+    largest.strain = std::max({largest.strain, std::abs(f(0, 0) - 1), std::abs(f(0, 1)), std::abs(f(1, 0)),
+                               std::abs(f(1, 1) - 1)});
+    largest.speed_squared = std::max(largest.speed_squared, velocities_[a].squaredNorm());
+  }
+  return largest;
 }
 
-void ConsistentDynamics::write_record(std::size_t a, const Mat2& rate, const Mat2& viscous_stress) {
-  const Mat2& f = deformation_[a];
-  const Mat2 cauchy = model_.particles.stress[a].in_plane() + viscous_stress;
-  piola_[a] = f.determinant() * cauchy * inverse(f).transpose();
-  set_stress_lanes(records_[a], piola_[a] * correction_[a] - zero_energy_viscosity_ * rate);
-  records_[a].q[v_x] = velocities_[a].x();
-  records_[a].q[v_y] = velocities_[a].y();
+/// Carries all particles over a step dt with the velocities of velocities_; dt = 0 only writes the records.
+ConsistentDynamics::Largest ConsistentDynamics::strain_all(double dt) {
+  const auto blocks = static_cast<std::int64_t>((model_.particles.size() + MaterialBlock::size - 1) / MaterialBlock::size);
+  double strain = 0, speed_squared = 0;
+#pragma omp parallel for schedule(static) reduction(max : strain, speed_squared)
+  for (std::int64_t block = 0; block < blocks; ++block) {
+    const std::size_t first = static_cast<std::size_t>(block) * MaterialBlock::size;
+    const Largest l = strain_block(first, std::min(first + MaterialBlock::size, model_.particles.size()), dt);
+    strain = std::max(strain, l.strain);
+    speed_squared = std::max(speed_squared, l.speed_squared);
+  }
+  return {strain, speed_squared};
 }
 
 void ConsistentDynamics::fill_image_velocities() {
@@ -282,15 +326,25 @@ void ConsistentDynamics::fill_image_records() {
 
 void ConsistentDynamics::accelerate_range(std::size_t first, std::size_t last, Vec2* out) const {
   const Record* records = records_.data();
+  const std::int64_t* begin = neighbours_.begin.data();
+  const std::int32_t* index = neighbours_.index.data();
+  const PairGradient* gradient = gradient_.data();
+  const double* weight = weight_.data();
   const double mu = zero_energy_viscosity_;
   for (std::size_t a = first; a < last; ++a) {
-    Lanes x{}, y{}, w{};
-    for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-      const Lanes q = records[neighbours_.index[k]].q;
-      x += q * gradient_[k].x;
-      y += q * gradient_[k].y;
-      w += q * weight_[k];
+    Lanes x{}, y{}, w{}, x2{}, y2{}, w2{};  // two sums of each: an addition need not wait for the one before
+    std::int64_t k = begin[a];
+    for (; k + 1 < begin[a + 1]; k += 2) {
+      const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
+      x += q * gradient[k].x, x2 += q2 * gradient[k + 1].x;
+      y += q * gradient[k].y, y2 += q2 * gradient[k + 1].y;
+      w += q * weight[k], w2 += q2 * weight[k + 1];
     }
+    if (k < begin[a + 1]) {
+      const Lanes q = records[index[k]].q;
+      x += q * gradient[k].x, y += q * gradient[k].y, w += q * weight[k];
+    }
+    x += x2, y += y2, w += w2;
     const Lanes own = records[a].q;
     const Vec2& s = gradient_sum_[a];
     const Vec2 stress_force(x[t_xx] + y[t_xy] + own[t_xx] * s.x() + own[t_xy] * s.y(),
@@ -298,7 +352,9 @@ void ConsistentDynamics::accelerate_range(std::size_t first, std::size_t last, V
     const Vec2 viscous_force = 2 * mu * Vec2(w[v_x] - own[v_x] * weight_sum_[a], w[v_y] - own[v_y] * weight_sum_[a]);
     const Vec2 pressure_sum(x[pressure] - own[pressure] * s.x(), y[pressure] - own[pressure] * s.y());  // eq. (22)
     const Mat2& f = deformation_[a];
-    const Vec2 pressure_force = f.determinant() * (inverse(f).transpose() * (correction_[a] * pressure_sum));
+    const Vec2 corrected = correction_[a] * pressure_sum;
+    const Vec2 pressure_force(f(1, 1) * corrected.x() - f(1, 0) * corrected.y(),  // J F^-T, the cofactors of F
+                              f(0, 0) * corrected.y() - f(0, 1) * corrected.x());
     out[a] = (stress_force + viscous_force + pressure_force) / reference_density_[a] + model_.gravity;
   }
 }
@@ -322,20 +378,9 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::strain(double dt) {
   fill_image_velocities();
-  double strain = 0, speed = 0;
-#pragma omp parallel for schedule(static) reduction(max : strain, speed)
-  for (std::size_t a = 0; a < model_.particles.size(); ++a) {
-    const Mat2 rate = deformation_rate(a);
-    const Mat2 gradient = mid_step_gradient(rate, deformation_[a], dt);
-    update_stress(model_, a, gradient, dt);
-    deformation_[a] += dt * rate;
-    model_.particles.density[a] = reference_density_[a] / deformation_[a].determinant();
-    write_record(a, rate, bulk_viscous(a, gradient));
-    strain = std::max(strain, (deformation_[a] - Mat2::Identity()).lpNorm<Eigen::Infinity>());
-    speed = std::max(speed, velocities_[a].squaredNorm());
-  }
-  largest_strain_ = strain;
-  travel_ += dt * std::sqrt(speed);
+  const Largest largest = strain_all(dt);
+  largest_strain_ = largest.strain;
+  travel_ += dt * std::sqrt(largest.speed_squared);
 }
 
 }  // namespace porosph

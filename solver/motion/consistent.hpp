@@ -37,8 +37,11 @@ class ConsistentDynamics final : public Dynamics {
   bool strangers_are_near();
 
   Mat2 deformation_rate(std::size_t a) const;
-  Mat2 bulk_viscous(std::size_t a, const Mat2& velocity_gradient) const;
-  void write_record(std::size_t a, const Mat2& deformation_rate, const Mat2& viscous_stress);
+  struct Largest {
+    double strain = 0, speed_squared = 0;
+  };
+  Largest strain_all(double dt);
+  Largest strain_block(std::size_t first, std::size_t last, double dt);
   void update_pressure_lanes();
   void fill_image_records();
   void fill_image_velocities();
