@@ -34,7 +34,7 @@ TEST_CASE("a probe reads linear fields exactly, at corners and outside of the pa
   const std::vector<double> values = probe.read(p).values();
   REQUIRE(values.size() == probe_quantities().size());
   for (std::size_t q = 0; q < values.size(); ++q)
-    CHECK(values[q] == Approx(linear(1.0 + q, at)).epsilon(1e-11));
+    CHECK(values[q] == Approx(linear(1.0 + static_cast<double>(q), at)).epsilon(1e-11).margin(1e-10));
   CHECK(probe.name() == "A");
   CHECK(probe.start() == at);
 }

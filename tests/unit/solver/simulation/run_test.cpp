@@ -108,8 +108,8 @@ TEST_CASE("soil that leaves the body ends the run, if the case says so", "[simul
   Case scene = box_of_soil(4, 4);
   scene.soils.push_back(scene.soils[0]);
   scene.soils[1].name = "thrown";
-  scene.soils[1].polygon = box_outline(0, 2, 2, 3);
-  scene.soils[1].velocity = {0, 30};
+  scene.soils[1].polygon = box_outline(0, 2.5, 2, 3.5);  // within each other's support
+  scene.soils[1].velocity = {0, 20};
   scene.loading.gravity_applied = false;
   scene.soils[0].youngs_modulus = scene.soils[1].youngs_modulus = 1e6;
   scene.time.end = 1;
