@@ -54,7 +54,7 @@ Case scene_of(Held held, bool wet) {
   upper.polygon = box_outline(0, 1.5, 4, 3);
   upper.youngs_modulus = 4e6, upper.poissons_ratio = 0.2;
   upper.unit_weight_saturated = 14e3, upper.unit_weight_unsaturated = 9e3;
-  if (wet) add_water(scene, 2.2);
+  if (wet) scene.water.stretches = {{-never, 2, 2.2}, {2, 4, 1.3}};  // the right one ends where the soil does
   hold(scene, held);
   if (held == Held::tilted_column) tilt(scene);
   return scene;

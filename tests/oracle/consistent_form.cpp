@@ -157,9 +157,10 @@ class ConsistentForm {
       const Vec2 rest = motion * now_.particles.velocity[b.particle] - now_.particles.velocity[a] - linear;
       force += 2 * mu * g.norm() / to_b.norm() * rest;
 
-      const Vec2 there = place_behind(b.walls, now_.particles.position[b.particle]);
-      const double p_b = b.real() ? now_.particles.pore_pressure[b.particle]
-                                  : now_.water.pore_pressure(there.x(), there.y());
+      const Vec2& in_front = now_.particles.position[b.particle];
+      const double p_b = b.real()
+                             ? now_.particles.pore_pressure[b.particle]
+                             : now_.water.pore_pressure(in_front.x(), place_behind(b.walls, in_front).y());
       pressure += (p_b - now_.particles.pore_pressure[a]) * g;
     });
     const Mat2& f = deformation_[a];

@@ -64,7 +64,7 @@ class PaperForm {
     Point b = a;
     b.x = place_behind(seen.walls, start_.particles.position[seen.particle]);
     b.volume = start_.particles.mass[seen.particle] / start_.particles.density[seen.particle];
-    b.pressure = now_.water.pore_pressure(b.x.x(), b.x.y());
+    b.pressure = now_.water.pore_pressure(start_.particles.position[seen.particle].x(), b.x.y());
     const double d_a = (a.x - fixed.from).dot(fixed.normal), d_b = -(b.x - fixed.from).dot(fixed.normal);
     b.v = -std::min(d_b / d_a, 0.5) * a.v;
     return b;
@@ -73,10 +73,10 @@ class PaperForm {
   Point ghost(const SeenParticle& seen) const {
     Point b = particle(seen.particle);
     const Mat2 turn = turn_behind(seen.walls);
+    b.pressure = now_.water.pore_pressure(b.x.x(), place_behind(seen.walls, b.x).y());
     b.x = place_behind(seen.walls, b.x);
     b.v = turn * b.v;
     b.stress = turn * b.stress * turn.transpose();
-    b.pressure = now_.water.pore_pressure(b.x.x(), b.x.y());
     return b;
   }
 

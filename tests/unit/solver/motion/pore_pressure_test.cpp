@@ -62,3 +62,20 @@ TEST_CASE("hydrostatic pore pressure is a buoyancy, exact on any particles", "[m
   for (std::size_t i = 0; i < a.size(); ++i)
     CHECK((a[i] - Vec2(0, 9810 / model.particles.density[i])).norm() < 1e-10);
 }
+
+TEST_CASE("water that ends at a wall goes on behind it", "[motion]") {
+  Case scene = box_of_soil(8, 6);
+  hold_as_column(scene, GENERATE(BoundaryKind::fixed, BoundaryKind::roller));
+  scene.formulation.motion = GENERATE(Motion::conventional, Motion::proposed, Motion::consistent);
+  const auto accelerations = [&](const WaterStretch& stretch) {
+    scene.water.stretches = {stretch};
+    Model model = build_model(scene);
+    const auto dynamics = make_dynamics(scene.formulation, model);
+    std::vector<Vec2> found(model.particles.size());
+    dynamics->prepare();
+    dynamics->accelerations(found);
+    return found;
+  };
+  const auto endless = accelerations({.level = 8}), over_the_soil = accelerations({0, 4, 8});
+  for (std::size_t a = 0; a < endless.size(); ++a) CHECK((endless[a] - over_the_soil[a]).norm() < 1e-10);
+}
