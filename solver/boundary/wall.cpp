@@ -64,6 +64,13 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
   return walls;
 }
 
+std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles) {
+  const auto n = static_cast<std::int32_t>(particles);
+  std::vector<std::int32_t> root;
+  for (const Image& image : images) root.push_back(image.parent < n ? image.parent : root[image.parent - n]);
+  return root;
+}
+
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
                    std::vector<Vec2>& points, std::vector<Image>& images) {
   for (std::size_t w = first; w < last; ++w) {

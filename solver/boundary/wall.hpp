@@ -29,6 +29,9 @@ struct Image {
   std::int32_t wall;
 };
 
+/// The particle that each image stems from; the first `particles` parents are no images.
+std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles);
+
 /// Walls of a case, each facing the soil that `points` stand for. Fixed ones first, then rollers that bear weight, then
 /// the others: each mirrors what those before it made. Throws std::runtime_error where a boundary touches no soil.
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points, double range);

@@ -68,11 +68,7 @@ void ConsistentDynamics::make_images() {
   append_images(walls, 0, bearing, kernel_.support(), points_, images_);
   extrapolated_ = images_.size();
   append_images(walls, bearing, walls.size(), kernel_.support(), points_, images_);
-
-  const auto n = static_cast<std::int32_t>(model_.particles.size());
-  root_.resize(extrapolated_);
-  for (std::size_t i = 0; i < extrapolated_; ++i)
-    root_[i] = images_[i].parent < n ? images_[i].parent : root_[images_[i].parent - n];
+  root_ = roots(images_, model_.particles.size());
 }
 
 void ConsistentDynamics::make_gradients() {
@@ -269,7 +265,7 @@ void ConsistentDynamics::update_pressure_lanes() {
     const std::size_t parent = images_[i].parent;
     const Vec2& from = parent < p.size() ? p.position[parent] : image_positions_[parent - p.size()];
     const Vec2 here = image_positions_[i] = model_.walls[images_[i].wall].mirrored(from);
-    records_[p.size() + i].q[pressure] = model_.water.pore_pressure(here.x(), here.y());
+    records_[p.size() + i].q[pressure] = model_.water.pore_pressure_behind_wall(p.position[root_[i]], here);
   }
 }
 

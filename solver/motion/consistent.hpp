@@ -64,7 +64,7 @@ class ConsistentDynamics final : public Dynamics {
   std::vector<Vec2> gradient_sum_;   ///< sum_b of the pair gradients [1/m]
   std::vector<double> weight_sum_;   ///< [1/m2]
   std::vector<double> volume_, reference_density_;
-  std::vector<std::int32_t> root_;   ///< of each extrapolated image: the particle it stems from
+  std::vector<std::int32_t> root_;   ///< of each image: the particle it stems from
   struct OneSided {
     std::int32_t particle;
     std::vector<std::int32_t> neighbours;

@@ -43,11 +43,13 @@ void PaperDynamics::make_virtual_particles() {
   for (const Image& i : in_rollers) images.push_back({i.parent + static_cast<std::int32_t>(n), i.wall});
 
   virtual_points_ = virtuals;
+  const std::vector<std::int32_t> root = roots(images, n);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const std::size_t parent = images[i].parent;
     virtual_volume_.push_back(parent < n ? model_.particles.volume(parent) : virtual_volume_[parent - n]);
     virtual_wall_.push_back(i < in_fixed ? images[i].wall : virtual_wall_[parent - n]);
-    virtual_pressure_.push_back(model_.water.pore_pressure(virtuals[i].x(), virtuals[i].y()));
+    virtual_pressure_.push_back(
+        model_.water.pore_pressure_behind_wall(model_.particles.position[root[i]], virtuals[i]));
   }
 }
 
@@ -68,6 +70,7 @@ void PaperDynamics::search() {
   points_ = position;
   ghosts_.clear();
   append_images(model_.walls, fixed_walls_, model_.walls.size(), reach, points_, ghosts_);
+  ghost_root_ = roots(ghosts_, n);
   neighbours_ = find_neighbours(points_, n, reach);
   wall_neighbours_ = find_neighbours(position, virtual_points_, reach);
   gradient_.resize(neighbours_.index.size());
@@ -167,8 +170,7 @@ void PaperDynamics::fill_records() {
     const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
     const Mat2 s = r * (Mat2() << q[s_xx], q[s_xy], q[s_xy], q[s_yy]).finished() * r;
     q[s_xx] = s(0, 0), q[s_yy] = s(1, 1), q[s_xy] = s(0, 1);
-    const Vec2& here = points_[p.size() + i];
-    q[pressure] = model_.water.pore_pressure(here.x(), here.y());
+    q[pressure] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[p.size() + i]);
     records_[p.size() + i].q = q;
   }
 }

@@ -54,6 +54,7 @@ class PaperDynamics final : public Dynamics {
 
   std::vector<Vec2> points_, velocities_;  ///< of particles, then ghosts
   std::vector<Image> ghosts_;
+  std::vector<std::int32_t> ghost_root_;  ///< the particle that each ghost stems from
   std::vector<Vec2> searched_;  ///< positions at the last search
   NeighbourList neighbours_, wall_neighbours_;
   std::vector<PairGradient> gradient_, wall_gradient_;  ///< corrected
