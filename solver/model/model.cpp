@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solver/geometry/place_particles.hpp"
+#include "solver/model/initial_velocity.hpp"
 
 namespace porosph {
 namespace {
@@ -18,7 +19,7 @@ Particles make_particles(const Case& scene, const Water& water, const std::vecto
     const bool wet = water.present() && water.depth(site.position.x(), site.position.y()) > 0;
     const double density = (wet ? soil.unit_weight_saturated : soil.unit_weight_unsaturated) / scene.loading.gravity;
     p.position.push_back(site.position);
-    p.velocity.push_back(soil.velocity);
+    p.velocity.push_back(initial_velocity(soil, density, site.position));
     p.density.push_back(density);
     p.mass.push_back(density * site.area);
     p.soil.push_back(site.soil);
