@@ -130,8 +130,7 @@ std::string bending_fault(const SoilCase& soil) {
 std::string column_fault(const Case& c) {
   if (c.soils.size() != 1 || !c.soils[0].holes.empty()) return "needs one soil without holes";
   const auto [low, high] = box_of(c.soils[0]);
-  if (!is_upright_rectangle(c.soils[0]))
-    return "needs a soil that is an upright rectangle";
+  if (!is_upright_rectangle(c.soils[0])) return "needs a soil that is an upright rectangle";
   if (!c.loading.gravity_applied) return "needs gravity";
   if (c.water.present() && (c.water.stretches.size() > 1 || c.water.stretches[0].x_from > low.x() ||
                             c.water.stretches[0].x_to < high.x()))

@@ -7,9 +7,10 @@
 namespace porosph {
 namespace {
 
-/// Of the first mode of Timoshenko's plate, for a velocity of 1 at its tip. Lattice sites may lie on the outline but
-/// not beyond it, so x is within the plate up to round-off.
-Point bending_velocity(const SoilCase& soil, double density, const Point& low, const Point& high, const Point& position) {
+/// Of the first mode of Timoshenko's plate, for a velocity of 1 at its tip. Lattice sites may lie on the
+/// outline but not beyond it, so x is within the plate up to round-off.
+Point bending_velocity(const SoilCase& soil, double density, const Point& low, const Point& high,
+                       const Point& position) {
   const Cantilever plate{.length = high.x() - low.x(),
                          .thickness = high.y() - low.y(),
                          .youngs_modulus = soil.youngs_modulus,

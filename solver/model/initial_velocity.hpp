@@ -5,8 +5,8 @@
 
 namespace porosph {
 
-/// Velocity at t = 0 of a soil of this density [kg/m3] at a position in it: uniform, turning and bending parts
-/// added up [m/s].
+/// Velocity at t = 0 of a soil of this density [kg/m3] at a position in it: uniform, turning and bending
+/// parts added up [m/s].
 Point initial_velocity(const SoilCase& soil, double density, const Point& position);
 
 }  // namespace porosph

@@ -30,7 +30,8 @@ struct Limits {
   double order;
 };
 
-std::map<double, ErrorNorms> check_convergence(const std::string& form, const Settings& formulation, const Limits& limits) {
+std::map<double, ErrorNorms> check_convergence(const std::string& form, const Settings& formulation,
+                                               const Limits& limits) {
   std::map<double, ErrorNorms> found;
   std::vector<double> spacings, errors;
   for (const auto& [spacing, limit] : limits.relative) {
@@ -55,8 +56,8 @@ std::map<double, ErrorNorms> check_convergence(const std::string& form, const Se
 }  // namespace
 
 TEST_CASE("statics: the consistent form converges faster than first order") {
-  const auto found =
-      check_convergence("consistent form", {}, {{{0.5, 0.0046}, {0.25, 0.0017}, {0.2, 0.0012}, {0.1, 0.00046}}, 1.4});
+  const auto found = check_convergence("consistent form", {},
+                                       {{{0.5, 0.0046}, {0.25, 0.0017}, {0.2, 0.0012}, {0.1, 0.00046}}, 1.4});
   CHECK(found.at(0.2).max_abs <= 450);
 }
 
@@ -70,16 +71,17 @@ TEST_CASE("statics: the kernel correction halves the proposed form's error") {
   const Settings plain = {"formulation.motion=proposed", "formulation.kernel_correction=false"};
   const double error = vertical_stress_error(0.2, plain).relative_l2;
   CHECK(error > 1.5 * vertical_stress_error(0.2, {"formulation.motion=proposed"}).relative_l2);
-  expect({.name = "column",
-          .settings = settings_at(0.2, plain),
-          .quantity = "vertical effective stress at rest, relative L2, proposed form without kernel correction",
-          .reference = "finite-strain column",
-          .resolution = metres(0.2)},
-         error, 0.042);
+  expect(
+      {.name = "column",
+       .settings = settings_at(0.2, plain),
+       .quantity = "vertical effective stress at rest, relative L2, proposed form without kernel correction",
+       .reference = "finite-strain column",
+       .resolution = metres(0.2)},
+      error, 0.042);
 }
 
-// The error is gamma_sat dx / 2, half a row's weight that the missing water pressure at the ground takes along; it is
-// large beside a stress that changes sign at half depth.
+// The error is gamma_sat dx / 2, half a row's weight that the missing water pressure at the ground takes
+// along; it is large beside a stress that changes sign at half depth.
 TEST_CASE("statics: the conventional form leaves out the water's push on the ground") {
   check_convergence("conventional form", {"formulation.motion=conventional", "reference=conventional_column"},
                     {{{0.5, 0.2}, {0.25, 0.1}, {0.2, 0.08}}, 0.95});

@@ -31,8 +31,10 @@ std::string command(const Measurement& m) {
 const char* introduction =
     "# Verification\n"
     "\n"
-    "Every case below is computed by the `verification` tests and compared with something that does not come from\n"
-    "particles: an exact solution, a conservation law, a symmetry. The tests fail where the error exceeds what is\n"
+    "Every case below is computed by the `verification` tests and compared with something that does not come "
+    "from\n"
+    "particles: an exact solution, a conservation law, a symmetry. The tests fail where the error exceeds "
+    "what is\n"
     "allowed. They also write this table, so do not edit it: build the preset `tests`, then\n"
     "\n"
     "    POROSPH_WRITE_DOCS=1 build/tests/bin/verification\n"

@@ -22,7 +22,7 @@ struct Measurement {
   std::string name;  ///< of the case, as for scene()
   Settings settings;
   std::string quantity, reference, resolution;
-  std::string order = "";  ///< of convergence, where it was fitted
+  std::string order = {};  ///< of convergence, where it was fitted
 };
 
 /// "0.12 %"
