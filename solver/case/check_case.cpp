@@ -103,14 +103,34 @@ bool is_covered(const Case& c, const Point& a, const Point& b, BoundaryKind kind
   });
 }
 
+struct Box {
+  Point low, high;
+};
+
+Box box_of(const SoilCase& soil) {
+  Box box{soil.polygon[0], soil.polygon[0]};
+  for (const Point& p : soil.polygon) box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
+  return box;
+}
+
+bool is_upright_rectangle(const SoilCase& soil) {
+  const Box box = box_of(soil);
+  const double full = (box.high - box.low).prod();
+  return std::abs(area(soil) - full) <= 1e-9 * full;
+}
+
+std::string bending_fault(const SoilCase& soil) {
+  if (soil.bending_velocity == 0) return "";
+  if (!is_upright_rectangle(soil)) return "needs a soil that is an upright rectangle";
+  const Box box = box_of(soil);
+  const Point size = box.high - box.low;
+  return size.y() > size.x() ? "needs a soil that is at least as long as it is thick" : "";
+}
+
 std::string column_fault(const Case& c) {
   if (c.soils.size() != 1 || !c.soils[0].holes.empty()) return "needs one soil without holes";
-  const Polygon& p = c.soils[0].polygon;
-  Point low = p[0], high = p[0];
-  for (const Point& q : p) low = low.cwiseMin(q), high = high.cwiseMax(q);
-  const Point size = high - low;
-  if (std::abs(area(c.soils[0]) - size.x() * size.y()) > 1e-9 * size.x() * size.y())
-    return "needs a soil that is an upright rectangle";
+  const auto [low, high] = box_of(c.soils[0]);
+  if (!is_upright_rectangle(c.soils[0])) return "needs a soil that is an upright rectangle";
   if (!c.loading.gravity_applied) return "needs gravity";
   if (c.water.present() && (c.water.stretches.size() > 1 || c.water.stretches[0].x_from > low.x() ||
                             c.water.stretches[0].x_to < high.x()))
@@ -146,6 +166,10 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   check_size(c, issues);
   check_soils(c, issues);
   const bool soils_are_sound = issues.empty();
+  for (std::size_t i = 0; i < c.soils.size(); ++i) {
+    const std::string fault = bending_fault(c.soils[i]);
+    if (!fault.empty()) issues.push_back({at("soil", i, "bending_velocity"), fault});
+  }
   check_probes(c, issues);
   if (!soils_are_sound) return issues;
   const Issues of_boundaries = check_boundaries(c);

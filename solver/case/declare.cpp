@@ -111,6 +111,13 @@ void declare(Fields& f, SoilCase& c) {
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
   f.flag(Key("no_tension", "", "Whether the mean effective stress is cut off at zero."), c.no_tension);
   f.point(Key("velocity", "m/s", "At the start."), c.velocity);
+  f.number(Key("angular_velocity", "rad/s",
+               "At the start: counter-clockwise, about the middle of the polygon's bounding box."),
+           c.angular_velocity, between(-1e6, 1e6));
+  f.number(Key("bending_velocity", "m/s",
+               "At the start: upwards at the right end of a plate that is clamped at its left end, elsewhere in the "
+               "shape of the first bending mode. For an upright rectangle."),
+           c.bending_velocity, between(-1e6, 1e6));
 }
 
 void declare(Fields& f, WaterCase& c) {

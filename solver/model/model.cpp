@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solver/geometry/place_particles.hpp"
+#include "solver/model/initial_velocity.hpp"
 
 namespace porosph {
 namespace {
@@ -16,9 +17,10 @@ Particles make_particles(const Case& scene, const Water& water, const std::vecto
   for (const Site& site : sites) {
     const SoilCase& soil = scene.soils[site.soil];
     const bool wet = water.present() && water.depth(site.position.x(), site.position.y()) > 0;
-    const double density = (wet ? soil.unit_weight_saturated : soil.unit_weight_unsaturated) / scene.loading.gravity;
+    const double density =
+        (wet ? soil.unit_weight_saturated : soil.unit_weight_unsaturated) / scene.loading.gravity;
     p.position.push_back(site.position);
-    p.velocity.push_back(soil.velocity);
+    p.velocity.push_back(initial_velocity(soil, density, site.position));
     p.density.push_back(density);
     p.mass.push_back(density * site.area);
     p.soil.push_back(site.soil);
@@ -33,8 +35,8 @@ Particles make_particles(const Case& scene, const Water& water, const std::vecto
 void check_every_soil_has_particles(const Case& scene, const Particles& particles) {
   for (std::size_t s = 0; s < scene.soils.size(); ++s)
     if (std::count(particles.soil.begin(), particles.soil.end(), static_cast<std::int32_t>(s)) == 0)
-      throw std::runtime_error(fmt::format("soil '{}' holds no particle at a spacing of {} m", scene.soils[s].name,
-                                           scene.particles.spacing));
+      throw std::runtime_error(fmt::format("soil '{}' holds no particle at a spacing of {} m",
+                                           scene.soils[s].name, scene.particles.spacing));
 }
 
 void add_k0_stress(const Case& scene, Particles& particles) {

@@ -34,7 +34,9 @@ Case unusual_case() {
                 2e4 / 7,
                 1e4 / 7,
                 true,
-                Point(0.1, -1e-17)};
+                Point(0.1, -1e-17),
+                0.3,
+                0};
   SoilCase clay = sand;
   clay.name = "clay";
   clay.polygon = {{4, 0}, {4, 3}, {8, 3}, {8, 0}};

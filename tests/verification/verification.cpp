@@ -1,0 +1,101 @@
+// The table is written by the tests themselves: POROSPH_WRITE_DOCS=1 verification
+#define CATCH_CONFIG_EXTERNAL_INTERFACES
+#include "tests/verification/verification.hpp"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace porosph::verification {
+namespace {
+
+struct Row {
+  Measurement what;
+  std::string found, allowed;
+};
+
+std::vector<Row>& rows() {
+  static std::vector<Row> all;
+  return all;
+}
+
+std::string command(const Measurement& m) {
+  std::string text = fmt::format("porosph run cases/verification/{}.toml", m.name);
+  for (const std::string& setting : m.settings) text += " --set " + setting;
+  return text;
+}
+
+const char* introduction =
+    "# Verification\n"
+    "\n"
+    "Every case below is computed by the `verification` tests and compared with something that does not come "
+    "from\n"
+    "particles: an exact solution, a conservation law, a symmetry. The tests fail where the error exceeds "
+    "what is\n"
+    "allowed. They also write this table, so do not edit it: build the preset `tests`, then\n"
+    "\n"
+    "    POROSPH_WRITE_DOCS=1 build/tests/bin/verification\n"
+    "\n"
+    "The command in the last column runs the case by itself.\n"
+    "\n"
+    "| Quantity | Compared with | Resolution | Error | Allowed | Order | Run it |\n"
+    "|---|---|---|---|---|---|---|\n";
+
+void write_table() {
+  std::ofstream file(std::string(POROSPH_SOURCE_DIR) + "/docs/verification.md");
+  file << introduction;
+  for (const Row& row : rows())
+    file << fmt::format("| {} | {} | {} | {} | {} | {} | `{}` |\n", row.what.quantity, row.what.reference,
+                        row.what.resolution, row.found, row.allowed, row.what.order, command(row.what));
+  if (!file) throw std::runtime_error("docs/verification.md cannot be written");
+}
+
+struct TableWriter final : Catch::TestEventListenerBase {
+  using TestEventListenerBase::TestEventListenerBase;
+  void testRunEnded(const Catch::TestRunStats& stats) override {
+    const bool all_well = stats.totals.testCases.failed == 0 && !stats.aborting;
+    if (std::getenv("POROSPH_WRITE_DOCS") && all_well) write_table();
+  }
+};
+CATCH_REGISTER_LISTENER(TableWriter)
+
+}  // namespace
+
+Case scene(const std::string& name, const Settings& settings) {
+  return read_case(fmt::format("{}/cases/verification/{}.toml", POROSPH_SOURCE_DIR, name), settings);
+}
+
+void run_to_end(Simulation& simulation, const RunWatch& watch) {
+  const RunOutcome outcome = run(simulation, watch);
+  INFO(outcome.message);
+  REQUIRE((outcome.status == RunStatus::completed || outcome.status == RunStatus::equilibrium));
+}
+
+std::string percent(double fraction) { return fmt::format("{:.2g} %", 100 * fraction); }
+std::string scientific(double value) { return fmt::format("{:.1e}", value); }
+std::string metres(double spacing) { return fmt::format("spacing {:g} m", spacing); }
+
+void expect(const Measurement& what, double error, double largest_allowed, std::string (*text)(double)) {
+  INFO(what.name << ", " << what.quantity << ", " << what.resolution << ": " << error);
+  CHECK(error <= largest_allowed);
+  note(what, text(error), text(largest_allowed));
+}
+
+void note(const Measurement& what, const std::string& found, const std::string& allowed) {
+  rows().push_back({what, found, allowed});
+}
+
+double fitted_order(const std::vector<double>& spacings, const std::vector<double>& errors) {
+  const auto n = static_cast<double>(spacings.size());
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    const double lx = std::log(spacings[i]), ly = std::log(errors[i]);
+    x += lx, y += ly, xx += lx * lx, xy += lx * ly;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+}  // namespace porosph::verification

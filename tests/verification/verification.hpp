@@ -1,0 +1,42 @@
+// What the verification tests share: their cases, and the table of what they measured.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/case/case_file.hpp"
+#include "solver/simulation/run.hpp"
+
+namespace porosph::verification {
+
+using Settings = std::vector<std::string>;  ///< overrides, "key=value"
+
+/// cases/verification/<name>.toml.
+Case scene(const std::string& name, const Settings& settings = {});
+
+/// Runs to the end, which must not be an instability.
+void run_to_end(Simulation& simulation, const RunWatch& watch = {});
+
+/// One line of docs/verification.md.
+struct Measurement {
+  std::string name;  ///< of the case, as for scene()
+  Settings settings;
+  std::string quantity, reference, resolution;
+  std::string order = {};  ///< of convergence, where it was fitted
+};
+
+/// "0.12 %"
+std::string percent(double fraction);
+std::string scientific(double value);
+std::string metres(double spacing);
+
+/// Keeps a measured error for the table, and checks it. `text` turns error and limit into words.
+void expect(const Measurement& what, double error, double largest_allowed,
+            std::string (*text)(double) = percent);
+/// Keeps a finding that is checked elsewhere.
+void note(const Measurement& what, const std::string& found, const std::string& allowed = "");
+
+/// Exponent p of error ~ spacing^p, fitted by least squares to the logarithms.
+double fitted_order(const std::vector<double>& spacings, const std::vector<double>& errors);
+
+}  // namespace porosph::verification
