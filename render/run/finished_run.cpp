@@ -31,6 +31,16 @@ FinishedRun open_run(const fs::path& path) {
   return run;
 }
 
+std::vector<std::string> run_labels(const std::vector<FinishedRun>& runs) {
+  std::vector<std::string> labels;
+  for (const FinishedRun& run : runs) {
+    const auto alike =
+        std::count_if(runs.begin(), runs.end(), [&](const auto& r) { return r.name == run.name; });
+    labels.push_back(alike > 1 ? run.folder.string() : run.name);
+  }
+  return labels;
+}
+
 Frame frame_of(const FinishedRun& run, std::size_t frame) {
   return frame_of(*read_frame(run.series.file(frame)));
 }

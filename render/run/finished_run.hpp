@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/case/case.hpp"
 #include "solver/output/frame.hpp"
@@ -23,6 +24,9 @@ struct FinishedRun {
 /// `path` is the run's folder or a .pvd in it. Throws ReadError, or CaseError for a case.toml that does not
 /// hold a case.
 FinishedRun open_run(const std::filesystem::path& path);
+
+/// The folders' names; the whole path where two are alike.
+std::vector<std::string> run_labels(const std::vector<FinishedRun>& runs);
 
 /// One frame of the run. Throws ReadError.
 Frame frame_of(const FinishedRun& run, std::size_t frame);

@@ -47,7 +47,8 @@ Scenery scenery_of(const Case& scene) {
 }
 
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame) {
-  if (run.scene) return {run.scene->particles.spacing};
+  constexpr double overlap = 1.03;  // so that soil that stretches a little shows no gaps between its squares
+  if (run.scene) return {overlap * run.scene->particles.spacing};
   if (!has(frame, "Mass") || !has(frame, "Density")) return {usual_distance(positions_of(frame))};
   std::vector<double> sizes = values_of(frame, {"Mass", ""});
   const std::vector<double> densities = values_of(frame, {"Density", ""});
@@ -71,6 +72,13 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   }
   if (run.scene) panel.scenery = scenery_of(*run.scene);
   return panel;
+}
+
+ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMap map) {
+  std::vector<double> ends;
+  for (const auto& v : values)
+    if (const ValueRange r = finite_extent(v); r.low <= r.high) ends.insert(ends.end(), {r.low, r.high});
+  return is_diverging(map) ? centred_range(finite_extent(ends)) : rounded_range(finite_extent(ends));
 }
 
 std::string time_text(double time) { return fmt::format("t = {:.4g} s", time); }

@@ -19,6 +19,9 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
 /// usual distance to the next particle [m].
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame);
 
+/// The same extent for all of them, rounded, or centred at zero for a diverging map.
+ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMap map);
+
 /// "t = 1.25 s".
 std::string time_text(double time);
 
