@@ -11,7 +11,7 @@ namespace porosph::app {
 using Arguments = std::vector<std::string>;
 
 /// Exit statuses that other programs rely on.
-enum Exit : int { done = 0, wrong_input = 2, unstable = 3, file_failure = 4, interrupted = 130 };
+enum Exit : int { done = 0, failed_threshold = 1, wrong_input = 2, unstable = 3, file_failure = 4, interrupted = 130 };
 
 struct Command {
   std::string name, summary;
@@ -33,5 +33,8 @@ bool parse(const Arguments& arguments, const boost::program_options::options_des
 int run_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int render_command(const Arguments& arguments);
+int compare_command(const Arguments& arguments);
+int report_command(const Arguments& arguments);
+int fem_command(const Arguments& arguments);
 
 }  // namespace porosph::app

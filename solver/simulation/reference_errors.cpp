@@ -26,19 +26,6 @@ Ground ground_of(const Case& scene) {
   return ground;
 }
 
-Column column_of(const Case& scene, const Ground& ground) {
-  const SoilCase& soil = scene.soils[0];
-  const LinearElastic elastic = LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio);
-  Column column{.height = ground.top - ground.bottom,
-                .bulk_modulus = elastic.bulk_modulus,
-                .shear_modulus = elastic.shear_modulus,
-                .unit_weight_saturated = soil.unit_weight_saturated,
-                .unit_weight_unsaturated = soil.unit_weight_unsaturated,
-                .unit_weight_water = scene.water.unit_weight};
-  if (scene.water.present()) column.water_level = scene.water.stretches[0].level - ground.bottom;
-  return column;
-}
-
 ErrorNorms norms(const Particles& p, const std::function<double(std::size_t)>& computed,
                  const std::function<double(std::size_t)>& exact) {
   double difference = 0, reference = 0, largest = 0;
@@ -53,15 +40,28 @@ ErrorNorms norms(const Particles& p, const std::function<double(std::size_t)>& c
 
 }  // namespace
 
+ReferenceColumn reference_column(const Case& scene) {
+  const Ground ground = ground_of(scene);
+  const SoilCase& soil = scene.soils[0];
+  const LinearElastic elastic = LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio);
+  Column column{.height = ground.top - ground.bottom,
+                .bulk_modulus = elastic.bulk_modulus,
+                .shear_modulus = elastic.shear_modulus,
+                .unit_weight_saturated = soil.unit_weight_saturated,
+                .unit_weight_unsaturated = soil.unit_weight_unsaturated,
+                .unit_weight_water = scene.water.unit_weight};
+  if (scene.water.present()) column.water_level = scene.water.stretches[0].level - ground.bottom;
+  return {column, ground.bottom};
+}
+
 std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation) {
   const Case& scene = simulation.scene();
   if (scene.reference == Reference::none) return {};
-  const Ground ground = ground_of(scene);
-  const Column column = column_of(scene, ground);
+  const auto [column, bottom] = reference_column(scene);
   const FiniteStrainColumn exact = scene.reference == Reference::conventional_column ? conventional_column(column)
                                                                                      : FiniteStrainColumn(column);
   const Particles& p = simulation.model().particles;
-  const auto height = [&](std::size_t i) { return p.start[i].y() - ground.bottom; };
+  const auto height = [&](std::size_t i) { return p.start[i].y() - bottom; };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };
   return {
       {"EffectiveStress_XX", norms(p, [&](auto i) { return p.stress[i].xx; }, lateral)},

@@ -4,10 +4,19 @@
 #include <map>
 #include <string>
 
+#include "solver/exact/column.hpp"
 #include "solver/output/frame.hpp"
 #include "solver/simulation/simulation.hpp"
 
 namespace porosph {
+
+struct ReferenceColumn {
+  Column column;
+  double bottom = 0;  ///< y of the column's fixed bottom [m]
+};
+
+/// The column that a case with a reference describes. Throws std::runtime_error where it has several soils.
+ReferenceColumn reference_column(const Case& scene);
 
 /// Field (EffectiveStress_YY, ..., Displacement_Y) -> norms over the particles, each at its height at t = 0; empty where
 /// the case names no reference. Throws std::runtime_error where the case is not one that the reference describes.

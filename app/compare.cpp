@@ -1,0 +1,111 @@
+// porosph compare: two runs side by side, with their difference.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "app/command.hpp"
+#include "app/left_out.hpp"
+#include "app/numbers.hpp"
+#include "render/report/comparison.hpp"
+
+namespace porosph::app {
+namespace {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> runs, fields, left_out;
+  std::string fem, out, time;
+  double deformation = 1;
+};
+
+std::optional<Options> read_options(const Arguments& arguments) {
+  Options o;
+  po::options_description options;
+  options.add_options()("run", po::value(&o.runs)->required(), "two folders of runs")(
+      "fem", po::value(&o.fem)->value_name("DIR"),
+      "also against the finite-element reference in this folder")(
+      "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
+      "place [m] that does not count against finite elements, such as a toe; may be given again")(
+      "field", po::value(&o.fields)->value_name("NAME[:COMPONENT]"),
+      "field to draw; may be given again (default: EffectiveStress:YY, TotalStress:YY, Displacement:Y)")(
+      "time", po::value(&o.time)->value_name("T|last|common")->default_value("last"),
+      "the frames nearest to T seconds, the last ones, or those of the last time that both runs have")(
+      "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
+      "displacements are drawn this many times")(
+      "out", po::value(&o.out)->value_name("DIR")->default_value("results/compare"),
+      "folder for pictures and tables");
+  po::positional_options_description positional;
+  positional.add("run", -1);
+  po::variables_map values;
+  if (!parse(arguments, options, positional, "compare RUN_A RUN_B [options]",
+             "  porosph compare results/conventional results/proposed --field TotalStress:YY\n"
+             "  porosph compare results/a results/b --fem results/embankment_fem --leave-out 10,6,1\n",
+             values))
+    return std::nullopt;
+  if (o.runs.size() != 2) throw UsageError(fmt::format("two runs are compared, not {}", o.runs.size()));
+  if (!std::isfinite(o.deformation)) throw UsageError("--deform must be a finite number");
+  if (o.fields.empty()) o.fields = {"EffectiveStress:YY", "TotalStress:YY", "Displacement:Y"};
+  return o;
+}
+
+bool at_rest(const FinishedRun& run) { return run.summary && run.summary->status == RunStatus::equilibrium; }
+
+struct FramePair {
+  std::size_t a, b;
+};
+
+FramePair choose_frames(const FinishedRun& a, const FinishedRun& b, const std::string& time) {
+  const double end_a = a.series.frames.back().time, end_b = b.series.frames.back().time;
+  if (time == "common") {
+    const double end = std::min(end_a, end_b);
+    return {frame_at(a.series, end), frame_at(b.series, end)};
+  }
+  if (time != "last") {
+    const double t = read_number("--time", time);
+    return {frame_at(a.series, t), frame_at(b.series, t)};
+  }
+  if (std::abs(end_a - end_b) > 1e-6 * std::max(end_a, end_b) && !(at_rest(a) || at_rest(b)))
+    throw std::runtime_error(
+        fmt::format("{} ends at {:g} s and {} at {:g} s, neither at rest: choose --time common, or a time",
+                    a.folder.string(), end_a, b.folder.string(), end_b));
+  return {a.series.frames.size() - 1, b.series.frames.size() - 1};
+}
+
+void print(const std::string& heading, const std::vector<FieldNorms>& all) {
+  if (all.empty()) return;
+  fmt::print("{}\n  {:20} {:>18}   {}\n", heading, "field", "relative L2", "largest difference");
+  for (const FieldNorms& n : all)
+    fmt::print("  {:20} {:>18}   {}\n", n.field.text(), relative_text(n.relative_l2), largest_text(n));
+}
+
+}  // namespace
+
+int compare_command(const Arguments& arguments) {
+  const auto o = read_options(arguments);
+  if (!o) return Exit::done;
+  ComparisonChoice choice{
+      .pictures = {}, .deformation = o->deformation, .left_out = read_left_out(o->left_out)};
+  for (const std::string& field : o->fields) choice.pictures.push_back(parse_selection(field));
+  const FinishedRun a = open_run(o->runs[0]), b = open_run(o->runs[1]);
+  std::optional<FemReference> fem;
+  if (!o->fem.empty()) fem.emplace(o->fem);
+  const FramePair frames = choose_frames(a, b, o->time);
+  const Comparison c = compare_runs(a, frames.a, b, frames.b, fem, choice, o->out);
+  const std::vector<std::string> labels = run_labels({a, b});
+  write_norms(c, labels[0], labels[1], o->out);
+  fmt::print("{} at {:g} s and {} at {:g} s, {} points, {}\n", labels[0], c.time_a, labels[1], c.time_b,
+             c.points,
+             c.particle_by_particle ? "particle by particle" : "interpolated, exact for linear fields");
+  print(fmt::format("{} against {}", labels[0], labels[1]), c.a_against_b);
+  print(labels[0] + " against finite elements", c.a_against_fem);
+  print(labels[1] + " against finite elements", c.b_against_fem);
+  for (const std::string& file : c.pictures) fmt::print("{}\n", (fs::path(o->out) / file).string());
+  fmt::print("{}\n{}\n", (fs::path(o->out) / "comparison.csv").string(),
+             (fs::path(o->out) / "comparison.json").string());
+  return Exit::done;
+}
+
+}  // namespace porosph::app

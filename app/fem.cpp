@@ -1,0 +1,98 @@
+// porosph fem: the finite-element reference of a case.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "app/command.hpp"
+#include "solver/case/case_file.hpp"
+#include "solver/case/shapes.hpp"
+#include "solver/fem/solve.hpp"
+#include "solver/simulation/probe.hpp"
+#include "vtk_io/fem_mesh.hpp"
+#include "vtk_io/fem_vtu.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+
+namespace porosph::app {
+namespace {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+/// About 1800 triangles before those that corners add.
+double usual_edge(const Case& scene) {
+  double whole = 0;
+  for (const SoilCase& soil : scene.soils) whole += area(soil);
+  return std::sqrt(whole) / 30;
+}
+
+/// In the order of probe_quantities().
+std::vector<double> readings(const FemPoint& p) {
+  const auto& s = p.effective_stress;
+  return {s[0], s[1], s[2], s[3], p.pore_pressure, p.displacement.x(), p.displacement.y()};
+}
+
+std::string probe_table(const Case& scene, const FemSolution& solution) {
+  std::string csv = "probe,x,y";
+  for (const std::string& quantity : probe_quantities()) csv += "," + quantity;
+  for (const ProbeCase& probe : scene.probes) {
+    csv += fmt::format("\n{},{:.17g},{:.17g}", probe.name, probe.position.x(), probe.position.y());
+    for (double value : readings(solution.at(probe.position))) csv += fmt::format(",{:.17g}", value);
+  }
+  return csv + "\n";
+}
+
+void tell(const Case& scene, const FemSolution& solution) {
+  fmt::print("{} triangles, {} unknowns, {:.2f} s\n", solution.mesh().triangles.size(), solution.unknowns,
+             solution.seconds);
+  for (const ProbeCase& probe : scene.probes) {
+    const FemPoint p = solution.at(probe.position);
+    fmt::print("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", probe.name, probe.position.x(),
+               probe.position.y(), p.effective_stress[1] / 1e3, p.displacement.y() * 1e3);
+  }
+  if (const double tension = largest_mean_tension(scene, solution); tension > 0)
+    fmt::print(
+        "note: a soil that carries no tension comes out with a mean tension of {:.3g} kPa; the elastic "
+        "reference "
+        "does not hold there\n",
+        tension / 1e3);
+}
+
+}  // namespace
+
+int fem_command(const Arguments& arguments) {
+  std::string case_file, out;
+  std::vector<std::string> overrides;
+  double edge = 0;
+  po::options_description options;
+  options.add_options()("case", po::value(&case_file)->required(), "the case file")(
+      "out", po::value(&out)->value_name("DIR"),
+      "folder for fem.vtu and probes.csv (default: results/<case>_fem)")(
+      "edge", po::value(&edge)->value_name("METRES"),
+      "length of the triangles' edges far from corners (default: as makes about 1800 triangles)")(
+      "set", po::value(&overrides)->value_name("KEY=VALUE"),
+      "replaces a setting of the case; may be given again");
+  po::positional_options_description positional;
+  positional.add("case", 1);
+  po::variables_map values;
+  if (!parse(arguments, options, positional, "fem CASE.toml [options]",
+             "  porosph fem cases/embankment.toml\n  porosph fem cases/embankment.toml --edge 0.3 --out "
+             "results/fine\n",
+             values))
+    return Exit::done;
+  if (values.count("edge") > 0 && !(edge > 0 && std::isfinite(edge)))
+    throw UsageError(fmt::format("--edge = {}: must be > 0 m", edge));
+  const Case scene = read_case(case_file, overrides);
+  const fs::path folder =
+      out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);
+  const FemSolution solution = solve_fem(scene, mesh_case(scene, edge > 0 ? edge : usual_edge(scene)));
+  make_folder(folder);
+  write_file(folder / "case.toml", write_case(scene));
+  write_file(folder / "probes.csv", probe_table(scene, solution));
+  write_fem_vtu(solution, folder / "fem.vtu");
+  fmt::print("{}: finite elements, results in {}\n", scene.title, folder.string());
+  tell(scene, solution);
+  return Exit::done;
+}
+
+}  // namespace porosph::app

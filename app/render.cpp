@@ -1,0 +1,145 @@
+// porosph render: draws pictures of a series.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "app/command.hpp"
+#include "app/numbers.hpp"
+#include "render/run/run_panel.hpp"
+#include "render/run/shown_field.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+
+namespace porosph::app {
+namespace {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string series, field, time, out, range, map;
+  double deformation = 1;
+  int width = 0, height = 0;
+};
+
+std::optional<Options> read_options(const Arguments& arguments) {
+  Options o;
+  po::options_description options;
+  options.add_options()("series", po::value(&o.series)->required(), "a .pvd, or the folder of a run")(
+      "field", po::value(&o.field)->value_name("NAME[:COMPONENT]")->required(),
+      "e.g. EffectiveStress:YY, PorePressure; a vector without component: its magnitude")(
+      "time", po::value(&o.time)->value_name("T|last|all")->default_value("last"),
+      "the frame nearest to T seconds, the last frame, or a picture of every frame")(
+      "out", po::value(&o.out)->value_name("FILE.png"),
+      "the picture (default: beside the series, named by the field)")(
+      "range", po::value(&o.range)->value_name("LOW,HIGH"),
+      "of the colours, in the unit of the colour bar (default: all values, rounded)")(
+      "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
+      "displacements are drawn this many times; 0 draws the start")(
+      "map", po::value(&o.map)->value_name("viridis|cividis|cool_warm"),
+      "colours (default: cool_warm for shear and sideways motion, else viridis)")(
+      "width", po::value(&o.width)->value_name("PIXELS"), "of the picture (default: as it fits)")(
+      "height", po::value(&o.height)->value_name("PIXELS"), "of the picture (default: as it fits)");
+  po::positional_options_description positional;
+  positional.add("series", 1);
+  po::variables_map values;
+  if (!parse(
+          arguments, options, positional, "render SERIES.pvd --field NAME[:COMPONENT] [options]",
+          "  porosph render results/foundation --field TotalStress:YY\n"
+          "  porosph render results/foundation/particles.pvd --field Displacement --deform 20 --out u.png\n"
+          "  porosph render results/foundation --field EffectiveStress:YY --time all --range -110,0\n",
+          values))
+    return std::nullopt;
+  for (const auto& [name, size] : {std::pair{"width", o.width}, std::pair{"height", o.height}})
+    if (values.count(name) > 0 && (size < 200 || size > 8000))
+      throw UsageError(fmt::format("--{} = {}: must be from 200 to 8000 pixels", name, size));
+  if (!std::isfinite(o.deformation)) throw UsageError("--deform must be a finite number");
+  return o;
+}
+
+ColourMap read_map(const std::string& name, const FieldSelection& selection) {
+  static const std::map<std::string, ColourMap> maps = {
+      {"viridis", ColourMap::viridis}, {"cividis", ColourMap::cividis}, {"cool_warm", ColourMap::cool_warm}};
+  if (name.empty()) return usual_map(selection);
+  if (const auto found = maps.find(name); found != maps.end()) return found->second;
+  throw UsageError(fmt::format("--map = {}: must be viridis, cividis or cool_warm", name));
+}
+
+std::optional<ValueRange> read_range(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto comma = text.find(',');
+  if (comma == std::string::npos) throw UsageError(fmt::format("--range = {}: must be LOW,HIGH", text));
+  const ValueRange range{read_number("--range", text.substr(0, comma)),
+                         read_number("--range", text.substr(comma + 1))};
+  if (range.low >= range.high) throw UsageError(fmt::format("--range = {}: LOW must be below HIGH", text));
+  return range;
+}
+
+std::vector<std::size_t> choose_frames(const Series& series, const std::string& time) {
+  if (time == "last") return {series.frames.size() - 1};
+  if (time != "all") return {frame_at(series, read_number("--time", time))};
+  std::vector<std::size_t> all(series.frames.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+fs::path picture_path(const Options& o, const FinishedRun& run, const FieldSelection& selection,
+                      std::size_t frame) {
+  fs::path path = o.out.empty() ? run.folder / (selection.text() + ".png") : fs::path(o.out);
+  if (path.extension() != ".png")
+    throw UsageError(fmt::format("--out = {}: the name must end in .png", o.out));
+  if (o.time == "all") path.replace_filename(fmt::format("{}_{:06}.png", path.stem().string(), frame));
+  return path;
+}
+
+/// Lowest and highest of several frames, so that their pictures share unit and colours.
+ValueRange extent_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
+                     const FieldSelection& selection) {
+  std::vector<double> ends;
+  for (std::size_t frame : frames) {
+    const ValueRange r = finite_extent(values_of(frame_of(run, frame), selection));
+    if (r.low <= r.high) ends.insert(ends.end(), {r.low, r.high});
+  }
+  return finite_extent(ends);
+}
+
+}  // namespace
+
+int render_command(const Arguments& arguments) {
+  const auto o = read_options(arguments);
+  if (!o) return Exit::done;
+  const FieldSelection selection = parse_selection(o->field);
+  const FinishedRun run = open_run(o->series);
+  const std::vector<std::size_t> frames = choose_frames(run.series, o->time);
+  const ValueRange extent = extent_of(run, frames, selection);
+  const ShownUnit unit = shown_unit(selection.name, std::max(std::abs(extent.low), std::abs(extent.high)));
+  ColourScale scale{shown_label(selection, unit), read_map(o->map, selection), read_range(o->range)};
+  if (!scale.range && extent.low <= extent.high) {
+    const ValueRange shown{extent.low * unit.factor, extent.high * unit.factor};
+    scale.range = is_diverging(scale.map) ? centred_range(shown) : rounded_range(shown);
+  }
+  for (std::size_t i : frames) {
+    const Frame frame = frame_of(run, i);
+    ContourPanel panel =
+        panel_of(run, frame, scaled(values_of(frame, selection), unit.factor), o->deformation);
+    panel.title = shown_name(selection);
+    panel.subtitle = time_text(run.series.frames[i].time);
+    if (run.scene) panel.subtitle += ", " + formulation_text(run);
+    if (o->deformation != 1) panel.subtitle += fmt::format(", displacements × {:g}", o->deformation);
+    const fs::path path = picture_path(*o, run, selection, i);
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    save_contours({.title = run.scene ? run.scene->title : "",
+                   .panels = {std::move(panel)},
+                   .scale = scale,
+                   .columns = 1,
+                   .width = o->width,
+                   .height = o->height},
+                  path);
+    std::cout << path.string() << '\n';
+  }
+  return Exit::done;
+}
+
+}  // namespace porosph::app

@@ -1,0 +1,79 @@
+// porosph report: a page of pictures and tables of runs.
+#include "render/report/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+
+#include "app/command.hpp"
+#include "app/left_out.hpp"
+
+namespace porosph::app {
+namespace {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> runs, left_out, thresholds;
+  std::string fem, out;
+};
+
+std::optional<Options> read_options(const Arguments& arguments) {
+  Options o;
+  po::options_description options;
+  options.add_options()("run", po::value(&o.runs)->required(), "folders of runs of one body")(
+      "fem", po::value(&o.fem)->value_name("DIR"),
+      "also against the finite-element reference in this folder")(
+      "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
+      "place [m] that does not count against finite elements, such as a toe; may be given again")(
+      "fail-if", po::value(&o.thresholds)->value_name("PATH>NUMBER"),
+      "exit with status 1 if this holds for a number of a run's summary.json (fem.FIELD.relative_l2 with "
+      "--fem); "
+      ">, >=, < or <=; may be given again")("out",
+                                            po::value(&o.out)->value_name("DIR")->default_value("report"),
+                                            "folder for index.html and its pictures");
+  po::positional_options_description positional;
+  positional.add("run", -1);
+  po::variables_map values;
+  if (!parse(arguments, options, positional, "report RUN... [options]",
+             "  porosph report results/foundation\n"
+             "  porosph report results/a results/b --out report --fail-if "
+             "'errors.EffectiveStress_YY.relative_l2>0.02'\n",
+             values))
+    return std::nullopt;
+  return o;
+}
+
+/// As a shell would have to be given it.
+std::string quoted(const std::string& argument) {
+  const bool plain = !argument.empty() && argument.find_first_not_of(
+                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./,:=+@%") == std::string::npos;
+  if (plain) return argument;
+  std::string out = "'";
+  for (char c : argument) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+int report_command(const Arguments& arguments) {
+  const auto o = read_options(arguments);
+  if (!o) return Exit::done;
+  ReportInput input;
+  input.command = "porosph report";
+  for (const std::string& argument : arguments) input.command += " " + quoted(argument);
+  input.left_out = read_left_out(o->left_out);
+  for (const std::string& text : o->thresholds) input.thresholds.push_back(parse_threshold(text));
+  for (const std::string& run : o->runs) input.runs.push_back(open_run(run));
+  if (!o->fem.empty()) input.fem.emplace(o->fem);
+  const std::vector<std::string> failed = write_report(input, o->out);
+  fmt::print("{}\n", (fs::path(o->out) / "index.html").string());
+  std::fflush(stdout);
+  for (const std::string& text : failed) std::cerr << "porosph: threshold failed: " << text << '\n';
+  return failed.empty() ? Exit::done : Exit::failed_threshold;
+}
+
+}  // namespace porosph::app

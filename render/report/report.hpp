@@ -1,0 +1,29 @@
+// The report of runs: one page with its pictures.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/report/threshold.hpp"
+#include "render/run/norms.hpp"
+
+namespace porosph {
+
+struct ReportInput {
+  std::vector<FinishedRun> runs;      ///< at least one
+  std::optional<FemReference> fem;    ///< what they are compared with beside their own reference
+  std::vector<LeftOut> left_out;      ///< of the norms against finite elements
+  std::vector<Threshold> thresholds;  ///< each is checked for each run
+  std::string command;                ///< the command line that makes this report
+};
+
+/// Writes index.html, its PNGs and report.json into `folder`; pictures are the same for the same runs.
+/// Returns the thresholds that failed, as text. Throws std::runtime_error for a run without case or summary
+/// or of another body than the first, and for a threshold on a number that is not there; ReadError,
+/// WriteError.
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
+
+}  // namespace porosph

@@ -1,0 +1,169 @@
+#include "render/report/report_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "render/report/comparison.hpp"
+#include "render/run/history_lines.hpp"
+#include "render/run/run_panel.hpp"
+
+namespace porosph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name that is fit for a file and for a link to it.
+std::string file_name(const std::string& text) {
+  std::string out = text;
+  for (char& c : out)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return out;
+}
+
+std::string subtitle_of(const FinishedRun& run, double time) {
+  return time_text(time) + (run.scene ? ", " + formulation_text(run) : "");
+}
+
+/// Frame numbers, closer together at the start, where most happens.
+std::vector<std::size_t> instants(std::size_t frames) {
+  constexpr int count = 6;
+  std::set<std::size_t> chosen;
+  for (int i = 1; i <= count; ++i) {
+    const double part = static_cast<double>(i) / count;
+    chosen.insert(static_cast<std::size_t>(std::lround(part * part * static_cast<double>(frames - 1))));
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+}  // namespace
+
+ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
+  const FinishedRun& run = loaded.run;
+  const Frame start = frame_of(run, 0);
+  const bool several = run.scene->soils.size() > 1;
+  const FieldSelection field{several                      ? "SoilId"
+                             : run.scene->water.present() ? "PorePressure"
+                                                          : "Density",
+                             ""};
+  const auto values = values_of(start, field);
+  const ShownUnit unit = shown_unit(field.name, largest_of(values));
+  ContourPanel panel = panel_of(run, start, scaled(values, unit.factor));
+  panel.title = several ? "Soils, by their number" : shown_name(field) + " at the start";
+  save_contours({.title = run.scene->title,
+                 .panels = {std::move(panel)},
+                 .scale = {shown_label(field, unit), ColourMap::cividis, {}},
+                 .columns = 1},
+                folder / "case.png");
+  std::string soils;
+  for (const SoilCase& s : run.scene->soils) soils += (soils.empty() ? "" : ", ") + s.name;
+  return {
+      "case.png", "The case: soils, boundaries, water level and probes",
+      fmt::format(
+          "The case at the start: {} particles, soils: {}. Circles: rollers; hatched: fixed; blue: water.",
+          values.size(), soils)};
+}
+
+ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optional<FemReference>& fem,
+                            const FieldSelection& field, const fs::path& folder) {
+  std::vector<std::vector<double>> values;
+  double largest = 0;
+  for (const LoadedRun& r : runs) {
+    values.push_back(values_of(r.last, field));
+    largest = std::max(largest, largest_of(values.back()));
+  }
+  const ShownUnit unit = shown_unit(field.name, largest);
+  ContourFigure figure;
+  figure.title = shown_name(field);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    values[i] = scaled(std::move(values[i]), unit.factor);
+    ContourPanel panel = panel_of(runs[i].run, runs[i].last, values[i]);
+    panel.title = runs[i].label;
+    panel.subtitle = subtitle_of(runs[i].run, runs[i].last.time);
+    figure.panels.push_back(std::move(panel));
+  }
+  if (fem) {
+    figure.panels.push_back(fem_panel(*fem, runs.front().run, runs.front().last, field, unit.factor));
+    values.push_back(figure.panels.back().particles.values);
+  }
+  figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
+  const std::string file = "contours_" + field.text() + ".png";
+  save_contours(figure, folder / file);
+  return {file, shown_name(field) + " of all runs",
+          fmt::format("{} at the end of {}, one range of colours for all.", shown_name(field),
+                      runs.size() == 1 ? "the run" : "each run")};
+}
+
+std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs,
+                                            const std::vector<std::string>& labels, const fs::path& folder) {
+  const std::vector<Chart> charts = stress_histories(runs, labels);
+  if (charts.empty()) return std::nullopt;
+  const bool theory = !charts.front().references.empty();
+  save_charts({.title = "Effective vertical stress over time", .charts = charts}, folder / "history.png");
+  return ReportPicture{"history.png", "Effective vertical stress over time at the probes",
+                       std::string("Effective vertical stress at the probes") +
+                           (theory ? ", and the value that theory gives at rest (finite strain)." : ".")};
+}
+
+std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, const FemReference& fem,
+                                        const ProbeCase& probe, const fs::path& folder) {
+  std::vector<Chart> charts;
+  for (const char* component : {"XX", "YY", "ZZ", "XY"}) {
+    const FieldSelection field{"EffectiveStress", component};
+    const ShownUnit unit = shown_unit(field.name, 0);
+    Chart chart{.title = shown_name(field),
+                .x = {.title = "t [s]"},
+                .y = {.title = shown_label(field, unit)},
+                .series = {},
+                .references = {}};
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (auto line = history_line(runs[i].run, probe.name, field.text(), unit.factor)) {
+        line->label = runs[i].label;
+        style(*line, i);
+        chart.series.push_back(std::move(*line));
+      }
+    if (chart.series.empty()) return std::nullopt;
+    chart.references.push_back(
+        {.label = "finite elements", .y = fem.values(field, {probe.position})[0] * unit.factor});
+    charts.push_back(std::move(chart));
+  }
+  const std::string file = "history_" + file_name(probe.name) + ".png";
+  save_charts(
+      {.title = fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y()),
+       .charts = charts,
+       .columns = 2},
+      folder / file);
+  return ReportPicture{
+      file, "Effective stresses over time at probe " + probe.name,
+      fmt::format("Effective stresses at {}, and what finite elements give at rest.", probe.name)};
+}
+
+ReportPicture draw_development(const LoadedRun& loaded, const FieldSelection& field, const fs::path& folder) {
+  const FinishedRun& run = loaded.run;
+  std::vector<Frame> frames;
+  std::vector<std::vector<double>> values;
+  double largest = 0;
+  for (std::size_t i : instants(run.series.frames.size())) {
+    frames.push_back(frame_of(run, i));
+    values.push_back(values_of(frames.back(), field));
+    largest = std::max(largest, largest_of(values.back()));
+  }
+  const ShownUnit unit = shown_unit(field.name, largest);
+  ContourFigure figure;
+  figure.title = shown_name(field) + ": " + loaded.label;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    values[i] = scaled(std::move(values[i]), unit.factor);
+    ContourPanel panel = panel_of(run, frames[i], values[i]);
+    panel.title = time_text(frames[i].time);
+    figure.panels.push_back(std::move(panel));
+  }
+  figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
+  const std::string file = "development_" + file_name(loaded.label) + ".png";
+  save_contours(figure, folder / file);
+  return {file, shown_name(field) + " over time in run " + loaded.label,
+          fmt::format("How the {} develops in {}.", field.text(), loaded.label)};
+}
+
+}  // namespace porosph

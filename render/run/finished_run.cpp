@@ -1,0 +1,61 @@
+#include "render/run/finished_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solver/case/case_file.hpp"
+#include "vtk_io/particle_data.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/run_folder/history_csv.hpp"
+#include "vtk_io/run_folder/summary_json.hpp"
+
+namespace porosph {
+namespace fs = std::filesystem;
+
+FinishedRun open_run(const fs::path& path) {
+  const bool is_folder = fs::is_directory(path);
+  const fs::path pvd = is_folder ? path / "particles.pvd" : path;
+  if (!fs::exists(pvd))
+    throw ReadError(pvd, is_folder ? "the folder holds no series of particles (was it run with --no-frames?)"
+                                   : "there is no such file");
+  FinishedRun run;
+  run.folder = pvd.parent_path().empty() ? fs::path(".") : pvd.parent_path();
+  run.name = fs::weakly_canonical(run.folder).filename().string();
+  run.series = open_series(pvd);
+  if (fs::exists(run.folder / "case.toml")) run.scene = read_case(run.folder / "case.toml");
+  if (fs::exists(run.folder / "summary.json")) run.summary = read_summary(run.folder / "summary.json");
+  if (fs::exists(run.folder / "history.csv")) run.history = read_history(run.folder / "history.csv").history;
+  return run;
+}
+
+std::vector<std::string> run_labels(const std::vector<FinishedRun>& runs) {
+  std::vector<std::string> labels;
+  for (const FinishedRun& run : runs) {
+    const auto alike =
+        std::count_if(runs.begin(), runs.end(), [&](const auto& r) { return r.name == run.name; });
+    labels.push_back(alike > 1 ? run.folder.string() : run.name);
+  }
+  return labels;
+}
+
+Frame frame_of(const FinishedRun& run, std::size_t frame) {
+  return frame_of(*read_frame(run.series.file(frame)));
+}
+
+std::size_t frame_at(const Series& series, double time) {
+  const auto& frames = series.frames;
+  const double first = frames.front().time, last = frames.back().time;
+  const double slack = frames.size() > 1 ? 0.5 * (last - first) / static_cast<double>(frames.size() - 1) : 0;
+  if (!(time >= first - slack && time <= last + slack))
+    throw std::runtime_error(fmt::format(
+        "time {:g} s is outside of the series, which goes from {:g} s to {:g} s", time, first, last));
+  const auto nearest = std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  });
+  return static_cast<std::size_t>(nearest - frames.begin());
+}
+
+}  // namespace porosph

@@ -1,0 +1,30 @@
+// Probe readings as lines of a chart, with what theory says.
+#pragma once
+
+#include <optional>
+
+#include "render/chart.hpp"
+#include "render/run/finished_run.hpp"
+
+namespace porosph {
+
+/// A probe's reading over time times `factor`; empty if the run has no such probe or no history.
+std::optional<ChartSeries> history_line(const FinishedRun& run, const std::string& probe,
+                                        const std::string& quantity, double factor);
+
+/// The state of rest that theory gives at the probe, SI: of EffectiveStress_XX, _YY, _ZZ and Displacement_Y
+/// where the case has the reference `column`.
+std::optional<double> theory_at(const Case& scene, const ProbeCase& probe, const std::string& quantity);
+
+/// EffectiveStress_YY over time of a column that is suddenly loaded (small strains), for an undamped case
+/// with the reference `column`, times `factor`; empty for other cases.
+std::optional<ChartSeries> exact_vibration(const Case& scene, const ProbeCase& probe, double factor);
+
+/// σ'yy as a time chart at each probe, all runs in one, with theory. Empty if no run has a history.
+std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
+                                    const std::vector<std::string>& labels);
+
+/// Every run has its own colour, dashes tell them apart without colour.
+void style(ChartSeries& series, std::size_t run);
+
+}  // namespace porosph

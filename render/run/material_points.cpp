@@ -1,0 +1,127 @@
+#include "render/run/material_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "render/run/shown_field.hpp"
+#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/simulation/probe.hpp"
+
+namespace porosph {
+namespace {
+
+bool has(const Frame& frame, const std::string& name) {
+  return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const auto& f) { return f.name == name; });
+}
+
+/// The particles in the order of their numbers, or as they come where the frame has none.
+std::vector<std::size_t> in_order(const Frame& frame) {
+  std::vector<std::size_t> order(frame.points.size() / 3);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!has(frame, "ParticleId")) return order;
+  const std::vector<double> ids = values_of(frame, {"ParticleId", ""});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ids[i] < ids[j]; });
+  return order;
+}
+
+template <class T>
+std::vector<T> ordered(const std::vector<T>& values, const std::vector<std::size_t>& order) {
+  std::vector<T> out;
+  out.reserve(order.size());
+  for (std::size_t i : order) out.push_back(values[i]);
+  return out;
+}
+
+bool same(const std::vector<Point>& a, const std::vector<Point>& b) {
+  constexpr double rounding = 1e-9;  // positions less displacements [m]
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(),
+                    [&](const Point& p, const Point& q) { return (p - q).cwiseAbs().maxCoeff() < rounding; });
+}
+
+double smoothing_length(const FinishedRun& run) {
+  if (!run.scene)
+    throw std::runtime_error(
+        fmt::format("{}: without its case.toml the run can only be compared particle by particle", run.name));
+  return run.scene->smoothing_length();
+}
+
+}  // namespace
+
+Sampler::Sampler(const std::vector<Point>& points, const std::vector<Point>& starts, double h) {
+  const NeighbourList list = find_neighbours(points, starts, 2 * h);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<Point> near;
+    for (std::int32_t b : list.of(i)) {
+      near.push_back(starts[static_cast<std::size_t>(b)]);
+      particles_.push_back(static_cast<std::size_t>(b));
+    }
+    if (!near.empty()) {
+      const auto weights = linear_weights(points[i], near, std::vector<double>(near.size(), 1.0), h);
+      weights_.insert(weights_.end(), weights.begin(), weights.end());
+    }
+    begin_.push_back(particles_.size());
+  }
+}
+
+Sampler::Sampler(const std::vector<std::size_t>& order) : particles_(order), weights_(order.size(), 1.0) {
+  begin_.resize(order.size() + 1);
+  std::iota(begin_.begin(), begin_.end(), std::size_t{0});
+}
+
+std::vector<double> Sampler::operator()(const std::vector<double>& values) const {
+  std::vector<double> out(begin_.size() - 1, 0.0);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (begin_[i] == begin_[i + 1]) out[i] = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) out[i] += weights_[k] * values[particles_[k]];
+  }
+  return out;
+}
+
+std::vector<Point> starts_of(const Frame& frame) {
+  if (!has(frame, "Displacement"))
+    throw std::runtime_error("comparing needs the field Displacement, which the series does not have");
+  const auto x = values_of(frame, {"Displacement", "X"}), y = values_of(frame, {"Displacement", "Y"});
+  std::vector<Point> starts(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    starts[i] = {frame.points[3 * i] - x[i], frame.points[3 * i + 1] - y[i]};
+  return starts;
+}
+
+std::vector<double> volumes_of(const Frame& frame) {
+  if (!has(frame, "Mass") || !has(frame, "Density")) return std::vector<double>(frame.points.size() / 3, 1.0);
+  std::vector<double> volumes = values_of(frame, {"Mass", ""});
+  const std::vector<double> densities = values_of(frame, {"Density", ""});
+  for (std::size_t i = 0; i < volumes.size(); ++i) volumes[i] /= densities[i];
+  return volumes;
+}
+
+MaterialPoints common_points(const FinishedRun& a, const Frame& frame_a, const FinishedRun& b,
+                             const Frame& frame_b) {
+  const auto order_a = in_order(frame_a), order_b = in_order(frame_b);
+  const auto starts_a = ordered(starts_of(frame_a), order_a), starts_b = ordered(starts_of(frame_b), order_b);
+  if (same(starts_a, starts_b))
+    return {starts_a, ordered(volumes_of(frame_b), order_b), true, Sampler(order_a), Sampler(order_b)};
+  const bool a_is_coarser = starts_a.size() < starts_b.size();
+  const auto& points = a_is_coarser ? starts_a : starts_b;
+  return {points,
+          a_is_coarser ? ordered(volumes_of(frame_a), order_a) : ordered(volumes_of(frame_b), order_b), false,
+          Sampler(points, starts_of(frame_a), smoothing_length(a)),
+          Sampler(points, starts_of(frame_b), smoothing_length(b))};
+}
+
+std::string obstacle(const FinishedRun& a, const FinishedRun& b) {
+  if (!a.scene || !b.scene) return "";
+  const auto &soils_a = a.scene->soils, &soils_b = b.scene->soils;
+  if (soils_a.size() != soils_b.size())
+    return fmt::format("{} has {} soils, {} has {}", a.name, soils_a.size(), b.name, soils_b.size());
+  for (std::size_t i = 0; i < soils_a.size(); ++i)
+    if (soils_a[i].polygon != soils_b[i].polygon || soils_a[i].holes != soils_b[i].holes)
+      return fmt::format("the outlines of soil '{}' differ: they are not the same body", soils_a[i].name);
+  return "";
+}
+
+}  // namespace porosph

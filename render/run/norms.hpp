@@ -1,0 +1,42 @@
+// How far two states are apart, field by field.
+#pragma once
+
+#include <vector>
+
+#include "render/run/fem_reference.hpp"
+#include "render/run/material_points.hpp"
+#include "render/run/shown_field.hpp"
+
+namespace porosph {
+
+struct FieldNorms {
+  FieldSelection field;
+  double relative_l2 = 0;  ///< ||value - reference|| / ||reference||, volume-weighted; NaN: reference is zero
+  double max_abs = 0;      ///< in the field's SI unit
+  Point where = Point::Zero();  ///< of max_abs, at t = 0 [m]
+};
+
+/// Values at material points. `scale`: size of the whole field [SI]; a reference of less than 1e-9 of it
+/// counts as zero.
+FieldNorms norms(const FieldSelection& field, const std::vector<double>& values,
+                 const std::vector<double>& reference, const std::vector<Point>& at,
+                 const std::vector<double>& volumes, double scale);
+
+/// Displacement, effective stress, total vertical stress and pore pressure, of those that both frames have.
+std::vector<FieldSelection> comparable_fields(const Frame& a, const Frame& b);
+
+/// All comparable fields, b the reference.
+std::vector<FieldNorms> run_norms(const Frame& a, const Frame& b, const MaterialPoints& points);
+
+/// A place where a reference is not to be trusted, such as a toe, where its stress is singular.
+struct LeftOut {
+  Point at;
+  double radius = 0;  ///< [m]
+};
+
+/// The run's particles against the finite-element reference, without those near `left_out` or outside of its
+/// mesh. Throws std::runtime_error if no particle is left.
+std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,
+                                  const std::vector<LeftOut>& left_out);
+
+}  // namespace porosph

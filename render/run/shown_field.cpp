@@ -1,0 +1,140 @@
+#include "render/run/shown_field.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace porosph {
+namespace {
+
+const FrameField& find_field(const Frame& frame, const std::string& name) {
+  std::vector<std::string> known;
+  for (const FrameField& field : frame.fields) {
+    if (field.name == name) return field;
+    known.push_back(field.name);
+  }
+  throw std::runtime_error(
+      fmt::format("the series has no field '{}'; it has {}", name, fmt::join(known, ", ")));
+}
+
+std::vector<double> as_doubles(const FrameField& field) {
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+                    field.values);
+}
+
+std::vector<double> magnitudes(const std::vector<double>& values, std::size_t width) {
+  std::vector<double> out(values.size() / width);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (std::size_t c = 0; c < width; ++c) out[i] = std::hypot(out[i], values[i * width + c]);
+  return out;
+}
+
+bool is_stress(const std::string& field) {
+  return field == "EffectiveStress" || field == "TotalStress" || field == "PorePressure";
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
+
+FieldSelection parse_selection(const std::string& text) {
+  const auto colon = text.find(':');
+  FieldSelection selection{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
+  if (selection.name.empty() || (colon != std::string::npos && selection.component.empty()) ||
+      selection.component.find(':') != std::string::npos)
+    throw std::runtime_error(
+        fmt::format("field '{}': must be NAME or NAME:COMPONENT, such as EffectiveStress:YY", text));
+  return selection;
+}
+
+std::vector<double> values_of(const Frame& frame, const FieldSelection& selection) {
+  const FrameField& field = find_field(frame, selection.name);
+  std::vector<double> values = as_doubles(field);
+  const auto width = static_cast<std::size_t>(field.width());
+  const auto& names = field.components;
+  if (selection.component.empty()) {
+    if (width > 3)
+      throw std::runtime_error(fmt::format("field '{0}' is a tensor: choose a component, {0}:{1}", field.name,
+                                           fmt::join(names, fmt::format(", {}:", field.name))));
+    return width == 1 ? values : magnitudes(values, width);
+  }
+  const auto found = std::find(names.begin(), names.end(), selection.component);
+  if (found == names.end())
+    throw std::runtime_error(names.empty()
+                                 ? fmt::format("field '{}' is a scalar: it has no components", field.name)
+                                 : fmt::format("field '{}' has no component '{}'; it has {}", field.name,
+                                               selection.component, fmt::join(names, ", ")));
+  std::vector<double> out(values.size() / width);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = values[i * width + static_cast<std::size_t>(found - names.begin())];
+  return out;
+}
+
+ShownUnit shown_unit(const std::string& field, double largest) {
+  if (is_stress(field)) return {"kPa", 1e-3};
+  if (field == "Displacement") return largest < 0.2 ? ShownUnit{"mm", 1e3} : ShownUnit{"m", 1};
+  static const std::map<std::string, std::string> units = {
+      {"Velocity", "m/s"}, {"Density", "kg/m³"}, {"Mass", "kg/m"}, {"SmoothingLength", "m"}};
+  const auto found = units.find(field);
+  return {found == units.end() ? "" : found->second, 1};
+}
+
+std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) {
+  static const std::map<std::string, std::string> symbols = {
+      {"EffectiveStress", "σ'"}, {"TotalStress", "σ"}, {"PorePressure", "p_w"}, {"Displacement", "u"},
+      {"Velocity", "v"},         {"Density", "ρ"},     {"Mass", "m"},           {"SmoothingLength", "h"}};
+  const auto found = symbols.find(selection.name);
+  std::string label = found == symbols.end() ? selection.name : found->second;
+  if (found == symbols.end() && !selection.component.empty()) label += " " + selection.component;
+  if (found != symbols.end() && !selection.component.empty())
+    label += (is_stress(selection.name) ? "" : "_") + lower(selection.component);
+  if (selection.component.empty() && (selection.name == "Displacement" || selection.name == "Velocity"))
+    label = "|" + label + "|";
+  return unit.name.empty() ? label : label + " [" + unit.name + "]";
+}
+
+std::string shown_name(const FieldSelection& selection) {
+  static const std::map<std::string, std::string> directions = {{"XX", "horizontal "},   {"YY", "vertical "},
+                                                                {"ZZ", "out-of-plane "}, {"XY", "shear "},
+                                                                {"X", "horizontal "},    {"Y", "vertical "}};
+  static const std::map<std::string, std::pair<std::string, std::string>> words = {
+      {"EffectiveStress", {"Effective ", "stress"}}, {"TotalStress", {"Total ", "stress"}},
+      {"Displacement", {"", "displacement"}},        {"Velocity", {"", "velocity"}},
+      {"PorePressure", {"", "pore pressure"}},       {"Density", {"", "density"}}};
+  const auto word = words.find(selection.name);
+  const auto direction = directions.find(selection.component);
+  if (word == words.end() || (direction == directions.end() && !selection.component.empty()))
+    return selection.component.empty() ? selection.name : selection.name + " " + selection.component;
+  std::string text =
+      word->second.first + (selection.component.empty() ? "" : direction->second) + word->second.second;
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+ColourMap usual_map(const FieldSelection& selection) {
+  const std::string& c = selection.component;
+  return c == "XY" || c == "YZ" || c == "XZ" || c == "X" || c == "Z" ? ColourMap::cool_warm
+                                                                     : ColourMap::viridis;
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0;
+  for (double v : values)
+    if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& v : values) v *= factor;
+  return values;
+}
+
+}  // namespace porosph

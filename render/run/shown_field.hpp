@@ -1,0 +1,53 @@
+// Which number of the particle data a picture shows, and how people read it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/colour_map.hpp"
+#include "solver/output/frame.hpp"
+
+namespace porosph {
+
+/// A scalar field, one component of a field, or the magnitude of a vector (no component).
+struct FieldSelection {
+  std::string name, component;
+  std::string text() const {
+    return component.empty() ? name : name + "_" + component;
+  }  ///< fit for file names
+};
+
+/// "EffectiveStress:YY", "Displacement", "PorePressure". Throws std::runtime_error if it is not NAME or
+/// NAME:COMPONENT.
+FieldSelection parse_selection(const std::string& text);
+
+/// One value per particle, as in the file (SI units). Throws std::runtime_error, naming what the frame has,
+/// for an unknown field or component, and for a tensor without a component.
+std::vector<double> values_of(const Frame& frame, const FieldSelection& selection);
+
+/// The unit that people read, and what to multiply the file's values with.
+struct ShownUnit {
+  std::string name;  ///< empty: none
+  double factor = 1;
+};
+
+/// Stress and pressure in kPa; lengths in mm where `largest` (SI, absolute) is below 0.2 m; else as in the
+/// file.
+ShownUnit shown_unit(const std::string& field, double largest);
+
+/// The usual symbol and the unit: "σ'yy [kPa]"; the field's own name where it is not one of ours.
+std::string shown_label(const FieldSelection& selection, const ShownUnit& unit);
+
+/// In words: "Effective vertical stress"; the field's own name where it is not one of ours.
+std::string shown_name(const FieldSelection& selection);
+
+/// Diverging for what is zero at rest and has either sign (shear, sideways motion), else sequential.
+ColourMap usual_map(const FieldSelection& selection);
+
+/// Largest absolute finite value; 0 if there is none.
+double largest_of(const std::vector<double>& values);
+
+/// Every value times `factor`.
+std::vector<double> scaled(std::vector<double> values, double factor);
+
+}  // namespace porosph
