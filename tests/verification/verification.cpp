@@ -3,6 +3,7 @@
 #include "tests/verification/verification.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -55,6 +56,8 @@ void write_table() {
 
 struct TableWriter final : Catch::TestEventListenerBase {
   using TestEventListenerBase::TestEventListenerBase;
+  /// The cases are too small to share, and tests run beside each other.
+  void testRunStarting(const Catch::TestRunInfo&) override { omp_set_num_threads(1); }
   void testRunEnded(const Catch::TestRunStats& stats) override {
     const bool all_well = stats.totals.testCases.failed == 0 && !stats.aborting;
     if (std::getenv("POROSPH_WRITE_DOCS") && all_well) write_table();
