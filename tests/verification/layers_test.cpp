@@ -46,11 +46,11 @@ Errors stress_errors(const Settings& settings) {
 }  // namespace
 
 TEST_CASE("layers: eq. (15) and the consistent form carry a density ratio of 0.4") {
-  for (const char* form : {"motion=proposed", "motion=consistent"})
+  for (const std::string form : {"proposed", "consistent"})
     for (const Settings& weights : {Settings{}, reversed}) {
-      const Settings settings = joined(weights, form);
+      const Settings settings = joined(weights, "motion=" + form);
       const Errors errors = stress_errors(settings);
-      expect({"layers", settings, "vertical stress in two layers of density ratio 0.4, relative L2",
+      expect({"layers", settings, "vertical stress, density ratio 0.4, relative L2, " + form + " form",
               "weight above", metres(0.25)},
              errors.everywhere, 0.035);
       CHECK(errors.at_interface < 0.07);
@@ -59,8 +59,8 @@ TEST_CASE("layers: eq. (15) and the consistent form carry a density ratio of 0.4
 
 TEST_CASE("layers: eq. (14) carries a density ratio of 0.8") {
   const Settings settings = joined({"soil.upper.unit_weight_saturated=16e3"}, "motion=rho_squared");
-  expect({"layers", settings, "vertical stress in two layers of density ratio 0.8, relative L2, eq. (14)",
-          "weight above", metres(0.25)},
+  expect({"layers", settings, "vertical stress, density ratio 0.8, relative L2, eq. (14)", "weight above",
+          metres(0.25)},
          stress_errors(settings).everywhere, 0.03);
 }
 
@@ -70,13 +70,13 @@ TEST_CASE("layers: eq. (14) fails at density ratios below 0.5") {
     const Settings settings = joined(weights, "motion=rho_squared");
     const double error = stress_errors(settings).everywhere;
     CHECK(error > 0.5);
-    note({"layers", settings, "vertical stress in two layers of density ratio 0.4, relative L2, eq. (14)",
-          "weight above", metres(0.25)},
+    note({"layers", settings, "vertical stress, density ratio 0.4, relative L2, eq. (14)", "weight above",
+          metres(0.25)},
          percent(error), "must fail: above 50 %");
   }
   const Settings lighter = joined({"soil.upper.unit_weight_saturated=4e3"}, "motion=rho_squared");
   Simulation s(scene("layers", lighter));
   CHECK(run(s, {}).status == RunStatus::unstable);
-  note({"layers", lighter, "two layers of density ratio 0.2, eq. (14)", "weight above", metres(0.25)},
+  note({"layers", lighter, "vertical stress, density ratio 0.2, eq. (14)", "weight above", metres(0.25)},
        "unstable", "must fail");
 }

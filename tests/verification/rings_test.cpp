@@ -13,6 +13,7 @@ namespace {
 
 struct Collision {
   std::int64_t bodies = 0;  ///< at the end
+  bool completed = false;
   bool touched = false;
   double speed_after = 0;  ///< of the right ring's centre, over that before
   double energy = 0;       ///< at the end, over that at the start
@@ -37,8 +38,7 @@ Collision collide(const Settings& settings) {
     if (now.step() % 50 == 0 && !c.touched) c.touched = find_bodies(p.position, support).count == 1;
   };
   const RunOutcome outcome = run(s, watch);
-  INFO(outcome.message);
-  REQUIRE(outcome.status == RunStatus::completed);
+  c.completed = outcome.status == RunStatus::completed;
   c.bodies = find_bodies(p.position, 1.7 * s.model().spacing).count;
   c.speed_after = mean_velocity(p, 1) / before;
   c.energy = s.energy().total() / energy;
@@ -51,6 +51,7 @@ TEST_CASE("rings: with artificial stress the proposed form lets them bounce whol
   const Settings settings = {"time.end=0.025", "formulation.motion=proposed",
                              "formulation.artificial_viscosity_alpha=1", "formulation.artificial_stress=0.5"};
   const Collision c = collide(settings);
+  CHECK(c.completed);
   CHECK(c.touched);
   CHECK(c.bodies == 2);
   CHECK(c.energy < 1);
@@ -68,13 +69,14 @@ TEST_CASE("rings: without artificial stress the proposed form breaks them") {
   CHECK(c.bodies > 2);
   note({"rings", settings, "bodies after the collision, proposed form without artificial stress",
         "two whole rings", "6 particles over the wall"},
-       fmt::format("{}", c.bodies), "must break: more than 2");
+       fmt::format("{} pieces{}", c.bodies, c.completed ? "" : ", unstable"), "must break: more than 2");
 }
 
 // What touches becomes one continuum of the consistent form, which holds on as a spring would: the rings stay
 // whole, but part slowly.
 TEST_CASE("rings: the consistent form keeps them whole") {
   const Collision c = collide({});
+  CHECK(c.completed);
   CHECK(c.touched);
   CHECK(c.bodies <= 2);
   CHECK(c.energy < 1);

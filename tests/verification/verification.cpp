@@ -3,11 +3,13 @@
 #include "tests/verification/verification.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 namespace porosph::verification {
 namespace {
@@ -22,9 +24,15 @@ std::vector<Row>& rows() {
   return all;
 }
 
+/// Fit for a shell.
+std::string quoted(const std::string& setting) {
+  const bool plain = setting.find_first_of(" [{'") == std::string::npos;
+  return plain ? setting : '"' + setting + '"';
+}
+
 std::string command(const Measurement& m) {
   std::string text = fmt::format("porosph run cases/verification/{}.toml", m.name);
-  for (const std::string& setting : m.settings) text += " --set " + setting;
+  for (const std::string& setting : m.settings) text += " --set " + quoted(setting);
   return text;
 }
 
@@ -35,29 +43,40 @@ const char* introduction =
     "from\n"
     "particles: an exact solution, a conservation law, a symmetry. The tests fail where the error exceeds "
     "what is\n"
-    "allowed. They also write this table, so do not edit it: build the preset `tests`, then\n"
+    "allowed. They also write these tables, so do not edit them: build the preset `tests`, then\n"
     "\n"
     "    POROSPH_WRITE_DOCS=1 build/tests/bin/verification\n"
     "\n"
-    "The command in the last column runs the case by itself.\n"
-    "\n"
-    "| Quantity | Compared with | Resolution | Error | Allowed | Order | Run it |\n"
-    "|---|---|---|---|---|---|---|\n";
+    "The command in the last column runs the case by itself. Of the patch and of the rotation the tests "
+    "impose fields\n"
+    "or motions that a case file cannot; their commands show the scene.\n";
 
-void write_table() {
+void write_section(std::ostream& out, const std::string& name) {
+  out << fmt::format("\n## {}\n\n`cases/verification/{}.toml`\n\n", scene(name).title, name)
+      << "| Quantity | Compared with | Resolution | Error | Allowed | Order | Run it |\n"
+      << "|---|---|---|---|---|---|---|\n";
+  for (const Row& row : rows())
+    if (row.what.name == name)
+      out << fmt::format("| {} | {} | {} | {} | {} | {} | `{}` |\n", row.what.quantity, row.what.reference,
+                         row.what.resolution, row.found, row.allowed, row.what.order, command(row.what));
+}
+
+void write_tables() {
   std::ofstream file(std::string(POROSPH_SOURCE_DIR) + "/docs/verification.md");
   file << introduction;
-  for (const Row& row : rows())
-    file << fmt::format("| {} | {} | {} | {} | {} | {} | `{}` |\n", row.what.quantity, row.what.reference,
-                        row.what.resolution, row.found, row.allowed, row.what.order, command(row.what));
+  std::set<std::string> names;
+  for (const Row& row : rows()) names.insert(row.what.name);
+  for (const std::string& name : names) write_section(file, name);
   if (!file) throw std::runtime_error("docs/verification.md cannot be written");
 }
 
 struct TableWriter final : Catch::TestEventListenerBase {
   using TestEventListenerBase::TestEventListenerBase;
+  /// The cases are too small to share, and tests run beside each other.
+  void testRunStarting(const Catch::TestRunInfo&) override { omp_set_num_threads(1); }
   void testRunEnded(const Catch::TestRunStats& stats) override {
     const bool all_well = stats.totals.testCases.failed == 0 && !stats.aborting;
-    if (std::getenv("POROSPH_WRITE_DOCS") && all_well) write_table();
+    if (std::getenv("POROSPH_WRITE_DOCS") && all_well) write_tables();
   }
 };
 CATCH_REGISTER_LISTENER(TableWriter)
@@ -74,7 +93,9 @@ void run_to_end(Simulation& simulation, const RunWatch& watch) {
   REQUIRE((outcome.status == RunStatus::completed || outcome.status == RunStatus::equilibrium));
 }
 
-std::string percent(double fraction) { return fmt::format("{:.2g} %", 100 * fraction); }
+std::string percent(double fraction) {
+  return fraction < 1 ? fmt::format("{:.2g} %", 100 * fraction) : fmt::format("{:.0f} %", 100 * fraction);
+}
 std::string scientific(double value) { return fmt::format("{:.1e}", value); }
 std::string metres(double spacing) { return fmt::format("spacing {:g} m", spacing); }
 

@@ -148,3 +148,15 @@ TEST_CASE("the column reference needs a column") {
         at + "needs a soil that is an upright rectangle");
   CHECK(errors_of(column + walls, {"boundary.0.from=[1,0]"}) == at + "needs a boundary below the soil");
 }
+
+TEST_CASE("a plate that bends is an upright rectangle, longer than thick") {
+  const auto errors_of_bending = [](const std::string& outline) {
+    return errors_of(with(sand_outline, outline + "\nbending_velocity = 0.1"));
+  };
+  const std::string at = "box.toml:9:20: key 'soil[0].bending_velocity' = 0.1: ";
+  CHECK(errors_of_bending(sand_outline).empty());
+  CHECK(errors_of_bending("[[0, 0], [4, 0], [4, 2], [1, 2]]") ==
+        at + "needs a soil that is an upright rectangle");
+  CHECK(errors_of_bending("[[0, 0], [4, 0], [4, 5], [0, 5]]") ==
+        at + "needs a soil that is at least as long as it is thick");
+}

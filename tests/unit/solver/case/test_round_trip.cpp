@@ -41,6 +41,7 @@ Case unusual_case() {
   clay.name = "clay";
   clay.polygon = {{4, 0}, {4, 3}, {8, 3}, {8, 0}};
   clay.holes.clear();
+  clay.bending_velocity = 0.7;
   c.soils = {sand, clay};
   c.water.unit_weight = 1e4 / 3;
   c.water.stretches = {{-never, 1, 2}, {1, 3.3, 1.1}, {5, never, -0.7}};
