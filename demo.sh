@@ -25,6 +25,8 @@ run() {
   "$porosph" run "$case_file" --out "$out/$name" --threads 1 --quiet "${settings[@]}" \
     > "$out/logs/${name//\//_}.log" 2>&1 || status=$?
   case "$name:$status" in
+    foundation/conventional_no_tension:0)
+      echo "$name came to rest, but rows of soil should have been expelled" | tee -a "$failures" >&2 ;;
     *:0) echo "  $name: done" ;;
     foundation/conventional_no_tension:3)
       echo "  $name: unstable (exit status 3), as it must be: rows of soil were expelled, as in the paper" ;;

@@ -160,7 +160,8 @@ Rows probe_table(const std::vector<LoadedRun>& runs, const std::optional<FemRefe
       std::vector<std::string>& row = rows.emplace_back();
       row.push_back(probe.name + ": " + shown_label(field, unit));
       const auto put = [&](std::optional<double> value) {
-        row.push_back(value ? number(*value * unit.factor + 0.0, "{:.3f}") : "–");
+        const double shown = value.value_or(0) * unit.factor;
+        row.push_back(!value ? "–" : std::abs(shown) < 5e-4 ? "0.000" : number(shown, "{:.3f}"));
       };
       for (const LoadedRun& r : runs) {
         const auto& probes = r.run.summary->probes;

@@ -37,12 +37,15 @@ class Workplace {
   const std::filesystem::path& folder() const { return folder_; }
 
   Outcome porosph(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" POROSPH_PROGRAM "' " + arguments + " >out 2>err";
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" POROSPH_PROGRAM "' " + arguments + " >out 2>err";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"), text_of(folder_ / "err")};
   }
 
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(folder_ / file) << text;
+  }
 
  private:
   std::filesystem::path folder_;

@@ -60,8 +60,8 @@ TEST_CASE("files that cannot be read or written end with status 4") {
   place.write("file", "no folder");
   CHECK(place.porosph("run small.toml --quiet --out file/run").status == 4);
   for (const std::string arguments :
-       {"render absent.pvd --field PorePressure", "render small.toml --field PorePressure", "compare absent absent",
-        "report absent"}) {
+       {"render absent.pvd --field PorePressure", "render small.toml --field PorePressure",
+        "compare absent absent", "report absent"}) {
     CAPTURE(arguments);
     const Outcome outcome = place.porosph(arguments);
     CHECK(outcome.status == 4);

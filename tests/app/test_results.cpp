@@ -16,11 +16,13 @@ const Workplace& computed() {
   static const bool done = [] {
     place.write("small.toml", small_case);
     REQUIRE(place.porosph("run small.toml --quiet --out consistent").status == 0);
-    REQUIRE(place.porosph("run small.toml --quiet --out proposed --set formulation.motion=proposed").status == 0);
+    REQUIRE(place.porosph("run small.toml --quiet --out proposed --set formulation.motion=proposed").status ==
+            0);
     REQUIRE(place.porosph("run small.toml --quiet --out finer --set particles.spacing=0.25").status == 0);
     REQUIRE(place.porosph("run small.toml --quiet --out shorter --set time.end=0.5").status == 0);
-    REQUIRE(place.porosph("run small.toml --quiet --out other --set 'soil.0.polygon=[[0,0],[2,0],[2,3],[0,3]]'")
-                .status == 0);
+    REQUIRE(
+        place.porosph("run small.toml --quiet --out other --set 'soil.0.polygon=[[0,0],[2,0],[2,3],[0,3]]'")
+            .status == 0);
     REQUIRE(place.porosph("fem small.toml --out fem").status == 0);
     return true;
   }();
@@ -28,7 +30,9 @@ const Workplace& computed() {
   return place;
 }
 
-bool is_png(const fs::path& file) { return text_of(file).starts_with("\x89PNG") && fs::file_size(file) > 5000; }
+bool is_png(const fs::path& file) {
+  return text_of(file).starts_with("\x89PNG") && fs::file_size(file) > 5000;
+}
 
 nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
 
@@ -36,9 +40,11 @@ nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text
 
 TEST_CASE("render draws a field and names what there is when asked for another") {
   const Workplace& place = computed();
-  CHECK(place.porosph("render consistent --field EffectiveStress:YY").out == "consistent/EffectiveStress_YY.png\n");
+  CHECK(place.porosph("render consistent --field EffectiveStress:YY").out ==
+        "consistent/EffectiveStress_YY.png\n");
   CHECK(is_png(place.folder() / "consistent/EffectiveStress_YY.png"));
-  CHECK(place.porosph("render consistent/particles.pvd --field Displacement --deform 10 --out deep/u.png").status == 0);
+  CHECK(place.porosph("render consistent/particles.pvd --field Displacement --deform 10 --out deep/u.png")
+            .status == 0);
   CHECK(is_png(place.folder() / "deep/u.png"));
   const auto [arguments, message] = GENERATE(table<std::string, std::string>({
       {"--field Stress", "it has Displacement, Velocity, EffectiveStress"},
