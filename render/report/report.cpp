@@ -258,6 +258,8 @@ std::string how_to_reproduce(const ReportInput& input, const std::vector<LoadedR
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
   require_reportable(input.runs);
+  if (input.fem)
+    for (const FinishedRun& run : input.runs) require_same_problem(run, *input.fem);
   const std::vector<std::string> labels = run_labels(input.runs);
   std::vector<LoadedRun> runs;
   for (std::size_t i = 0; i < input.runs.size(); ++i)

@@ -126,6 +126,9 @@ TEST_CASE("compare refuses what cannot be compared") {
   const Outcome body = place.porosph("compare consistent other --out no");
   CHECK(body.status == 2);
   CHECK_THAT(body.err, Contains("outlines of soil 'sand' differ"));
+  const Outcome reference = place.porosph("compare other other --fem fem --out no");
+  CHECK(reference.status == 2);
+  CHECK_THAT(reference.err, Contains("the outline of soil 'sand' differs"));
   CHECK_FALSE(fs::exists(place.folder() / "no"));
 }
 
