@@ -146,6 +146,8 @@ Comparison compare_runs(const FinishedRun& a, std::size_t index_a, const Finishe
   if (const std::string reason = obstacle(a, b); !reason.empty())
     throw std::runtime_error(
         fmt::format("{} and {} cannot be compared: {}", a.folder.string(), b.folder.string(), reason));
+  if (fem)
+    for (const FinishedRun* run : {&a, &b}) require_same_problem(*run, *fem);
   const Frame frame_a = frame_of(a, index_a), frame_b = frame_of(b, index_b);
   const std::vector<std::string> labels = run_labels({a, b});
   const Side side_a{a, frame_a, labels[0]}, side_b{b, frame_b, labels[1]};

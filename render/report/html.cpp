@@ -26,7 +26,8 @@ table { border-collapse: collapse; font-size: .9rem; overflow-wrap: normal; }
 th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 thead th { background: var(--panel); }
 tbody th { font-weight: normal; }
-table.numbers td, table.numbers thead th + th { text-align: right; font-variant-numeric: tabular-nums; }
+table.numbers td, table.numbers thead th + th { text-align: right; font-variant-numeric: tabular-nums;
+  white-space: nowrap; }
 .warnings { background: var(--warn); border-left: 4px solid var(--warn-line); padding: .6rem 1rem; }
 .warnings ul { margin: 0; padding-left: 1.2rem; }
 pre { background: var(--panel); padding: .8rem; overflow-x: auto; font-size: .85rem; white-space: pre-wrap; }

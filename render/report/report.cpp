@@ -160,7 +160,8 @@ Rows probe_table(const std::vector<LoadedRun>& runs, const std::optional<FemRefe
       std::vector<std::string>& row = rows.emplace_back();
       row.push_back(probe.name + ": " + shown_label(field, unit));
       const auto put = [&](std::optional<double> value) {
-        row.push_back(value ? number(*value * unit.factor + 0.0, "{:.3f}") : "–");
+        const double shown = value.value_or(0) * unit.factor;
+        row.push_back(!value ? "–" : std::abs(shown) < 5e-4 ? "0.000" : number(shown, "{:.3f}"));
       };
       for (const LoadedRun& r : runs) {
         const auto& probes = r.run.summary->probes;
@@ -257,6 +258,8 @@ std::string how_to_reproduce(const ReportInput& input, const std::vector<LoadedR
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
   require_reportable(input.runs);
+  if (input.fem)
+    for (const FinishedRun& run : input.runs) require_same_problem(run, *input.fem);
   const std::vector<std::string> labels = run_labels(input.runs);
   std::vector<LoadedRun> runs;
   for (std::size_t i = 0; i < input.runs.size(); ++i)

@@ -1,5 +1,7 @@
 #include "render/run/norms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +60,33 @@ std::vector<FieldNorms> run_norms(const Frame& a, const Frame& b, const Material
     all.push_back(norms(f, points.sample_a(values_of(a, f)), points.sample_b(values_of(b, f)), points.at,
                         points.volumes, scale_of(b, f.name)));
   return all;
+}
+
+void require_same_problem(const FinishedRun& run, const FemReference& fem) {
+  const auto refuse = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{} cannot be compared with these finite elements: {} differs",
+                                         run.folder.string(), what));
+  };
+  if (!run.scene)
+    throw std::runtime_error(run.folder.string() + " holds no case.toml to hold against finite elements");
+  const Case &a = *run.scene, &b = fem.scene();
+  if (a.soils.size() != b.soils.size()) refuse("the number of soils");
+  for (std::size_t i = 0; i < a.soils.size(); ++i) {
+    const SoilCase &s = a.soils[i], &t = b.soils[i];
+    if (s.polygon != t.polygon || s.holes != t.holes) refuse("the outline of soil '" + s.name + "'");
+    if (s.youngs_modulus != t.youngs_modulus || s.poissons_ratio != t.poissons_ratio)
+      refuse("the stiffness of soil '" + s.name + "'");
+    if (s.unit_weight_saturated != t.unit_weight_saturated ||
+        s.unit_weight_unsaturated != t.unit_weight_unsaturated)
+      refuse("the weight of soil '" + s.name + "'");
+  }
+  const auto same = [](const WaterStretch& s, const WaterStretch& t) {
+    return s.x_from == t.x_from && s.x_to == t.x_to && s.level == t.level;
+  };
+  if (a.water.unit_weight != b.water.unit_weight ||
+      !std::equal(a.water.stretches.begin(), a.water.stretches.end(), b.water.stretches.begin(),
+                  b.water.stretches.end(), same))
+    refuse("the water");
 }
 
 std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,

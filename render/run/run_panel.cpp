@@ -81,12 +81,13 @@ ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMa
   return is_diverging(map) ? centred_range(finite_extent(ends)) : rounded_range(finite_extent(ends));
 }
 
-std::string time_text(double time) { return fmt::format("t = {:.4g} s", time); }
+std::string time_text(double time) { return fmt::format("t = {:.3g} s", time); }
 
 std::string formulation_text(const FinishedRun& run) {
   if (!run.scene) return "";
   const FormulationCase& f = run.scene->formulation;
-  return std::string(motion_name(f.motion)) + (f.kernel_correction ? "" : ", without kernel correction");
+  return std::string(motion_name(f.motion)) + (f.kernel_correction ? "" : ", without kernel correction") +
+         (run.scene->loading.damping > 0 ? "" : ", undamped");
 }
 
 }  // namespace porosph

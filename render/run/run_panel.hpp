@@ -25,7 +25,7 @@ ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMa
 /// "t = 1.25 s".
 std::string time_text(double time);
 
-/// "proposed, without kernel correction"; empty without a case.
+/// "proposed, without kernel correction, undamped"; empty without a case.
 std::string formulation_text(const FinishedRun& run);
 
 }  // namespace porosph

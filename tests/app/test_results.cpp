@@ -1,0 +1,163 @@
+// From a case to pictures, comparison and report, on a case of a few particles.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/app/porosph.hpp"
+
+using namespace porosph;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const Workplace& computed() {
+  static const Workplace place;
+  static const bool done = [] {
+    place.write("small.toml", small_case);
+    REQUIRE(place.porosph("run small.toml --quiet --out consistent").status == 0);
+    REQUIRE(place.porosph("run small.toml --quiet --out proposed --set formulation.motion=proposed").status ==
+            0);
+    REQUIRE(place.porosph("run small.toml --quiet --out finer --set particles.spacing=0.25").status == 0);
+    REQUIRE(place.porosph("run small.toml --quiet --out shorter --set time.end=0.5").status == 0);
+    REQUIRE(
+        place.porosph("run small.toml --quiet --out other --set 'soil.0.polygon=[[0,0],[2,0],[2,3],[0,3]]'")
+            .status == 0);
+    REQUIRE(place.porosph("fem small.toml --out fem").status == 0);
+    return true;
+  }();
+  REQUIRE(done);
+  return place;
+}
+
+bool is_png(const fs::path& file) {
+  return text_of(file).starts_with("\x89PNG") && fs::file_size(file) > 5000;
+}
+
+nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
+
+}  // namespace
+
+TEST_CASE("render draws a field and names what there is when asked for another") {
+  const Workplace& place = computed();
+  CHECK(place.porosph("render consistent --field EffectiveStress:YY").out ==
+        "consistent/EffectiveStress_YY.png\n");
+  CHECK(is_png(place.folder() / "consistent/EffectiveStress_YY.png"));
+  CHECK(place.porosph("render consistent/particles.pvd --field Displacement --deform 10 --out deep/u.png")
+            .status == 0);
+  CHECK(is_png(place.folder() / "deep/u.png"));
+  const auto [arguments, message] = GENERATE(table<std::string, std::string>({
+      {"--field Stress", "it has Displacement, Velocity, EffectiveStress"},
+      {"--field EffectiveStress", "choose a component"},
+      {"--field EffectiveStress:AB", "it has XX, YY, ZZ, XY, YZ, XZ"},
+      {"--field PorePressure:X", "is a scalar"},
+      {"--field PorePressure --time 5", "from 0 s to 1 s"},
+      {"--field PorePressure --time soon", "'soon' is not a number"},
+      {"--field PorePressure --range 2,1", "LOW must be below HIGH"},
+      {"--field PorePressure --map jet", "viridis, cividis or cool_warm"},
+      {"--field PorePressure --width 10", "from 200 to 8000"},
+      {"--field PorePressure --out p.jpg", ".png"},
+  }));
+  CAPTURE(arguments);
+  const Outcome outcome = place.porosph("render consistent " + arguments);
+  CHECK(outcome.status == 2);
+  CHECK_THAT(outcome.err, Contains(message));
+}
+
+TEST_CASE("render draws every frame in one range") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("render shorter --field PorePressure --time all --out frames/p.png").status == 0);
+  for (const char* file : {"p_000000.png", "p_000005.png"}) CHECK(is_png(place.folder() / "frames" / file));
+  CHECK_FALSE(fs::exists(place.folder() / "frames/p_000006.png"));
+}
+
+TEST_CASE("pictures are the same for the same input") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("report consistent proposed --out report_1").status == 0);
+  REQUIRE(place.porosph("report consistent proposed --out report_2").status == 0);
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(place.folder() / "report_1")) {
+    if (entry.path().extension() != ".png") continue;
+    ++pictures;
+    CAPTURE(entry.path().filename());
+    CHECK(text_of(entry.path()) == text_of(place.folder() / "report_2" / entry.path().filename()));
+  }
+  CHECK(pictures == 7);  // case, three fields, histories, two developments
+}
+
+TEST_CASE("compare finds a run equal to itself, and the known distance of others") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("compare consistent consistent --out same").status == 0);
+  const auto same = json_of(place.folder() / "same/comparison.json");
+  CHECK(same["particle_by_particle"] == true);
+  CHECK(same["points"] == 32);
+  CHECK(same["a_against_b"]["EffectiveStress_YY"]["relative_l2"] == 0.0);
+  CHECK(same["a_against_b"]["EffectiveStress_XY"]["relative_l2"].is_null());  // zero in a column
+
+  REQUIRE(place.porosph("compare proposed consistent --out different --fem fem").status == 0);
+  const auto different = json_of(place.folder() / "different/comparison.json");
+  // eq. (24) is off by gamma' dx / 2 = 2.55 kPa over the whole depth
+  CHECK(different["a_against_b"]["EffectiveStress_YY"]["max_abs"].get<double>() == Approx(2550).margin(1000));
+  CHECK(different["b_against_fem"]["EffectiveStress_YY"]["relative_l2"] < 0.05);
+  CHECK(different["a_against_fem"]["EffectiveStress_YY"]["relative_l2"] >
+        different["b_against_fem"]["EffectiveStress_YY"]["relative_l2"]);
+  CHECK(is_png(place.folder() / "different/TotalStress_YY.png"));
+  CHECK(is_png(place.folder() / "different/history.png"));
+  CHECK_THAT(text_of(place.folder() / "different/comparison.csv"),
+             Contains("proposed,consistent,EffectiveStress_YY,") && Contains("consistent,finite elements,"));
+}
+
+TEST_CASE("compare interpolates between runs of different spacing") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("compare finer consistent --out spacing").status == 0);
+  const auto json = json_of(place.folder() / "spacing/comparison.json");
+  CHECK(json["particle_by_particle"] == false);
+  CHECK(json["points"] == 32);
+  CHECK(json["a_against_b"]["EffectiveStress_YY"]["relative_l2"] < 0.05);
+  CHECK(json["a_against_b"]["Displacement_Y"]["relative_l2"] < 0.02);
+}
+
+TEST_CASE("compare refuses what cannot be compared") {
+  const Workplace& place = computed();
+  const Outcome time = place.porosph("compare consistent shorter --out no");
+  CHECK(time.status == 2);
+  CHECK_THAT(time.err, Contains("consistent ends at 1 s and shorter at 0.5 s") && Contains("--time common"));
+  CHECK(place.porosph("compare consistent shorter --time common --out yes").status == 0);
+  const Outcome body = place.porosph("compare consistent other --out no");
+  CHECK(body.status == 2);
+  CHECK_THAT(body.err, Contains("outlines of soil 'sand' differ"));
+  const Outcome reference = place.porosph("compare other other --fem fem --out no");
+  CHECK(reference.status == 2);
+  CHECK_THAT(reference.err, Contains("the outline of soil 'sand' differs"));
+  CHECK_FALSE(fs::exists(place.folder() / "no"));
+}
+
+TEST_CASE("the report is a page of escaped text whose pictures are all there") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("report consistent proposed --fem fem --out page").status == 0);
+  const std::string page = text_of(place.folder() / "page/index.html");
+  CHECK_THAT(page, Contains("Small &lt;column&gt; &amp; &quot;water&quot;") && !Contains("<column>") &&
+                       !Contains("<script") && !Contains("http"));
+  CHECK_THAT(page, Contains("prefers-color-scheme: dark") && Contains("@media print"));
+  CHECK_THAT(page, Contains("porosph run consistent/case.toml --out consistent"));
+  const std::regex image("<img src=\"([^\"]+)\"");
+  int images = 0;
+  for (std::sregex_iterator i(page.begin(), page.end(), image), end; i != end; ++i, ++images) {
+    CAPTURE((*i)[1].str());
+    CHECK(is_png(place.folder() / "page" / (*i)[1].str()));
+  }
+  CHECK(images == 8);
+}
+
+TEST_CASE("a failed threshold ends with status 1 and is told") {
+  const Workplace& place = computed();
+  const std::string path = "errors.EffectiveStress_YY.relative_l2";
+  CHECK(place.porosph("report consistent --out r --fail-if '" + path + ">0.5'").status == 0);
+  const Outcome failed = place.porosph("report consistent --out r --fail-if '" + path + ">1e-9'");
+  CHECK(failed.status == 1);
+  CHECK_THAT(failed.err, Contains("threshold failed: consistent: " + path + ">1e-9"));
+  CHECK(json_of(place.folder() / "r/report.json")["thresholds"][0]["failed"] == true);
+  const Outcome unknown = place.porosph("report consistent --out r --fail-if 'errors.Stress.relative_l2>1'");
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.err, Contains("no 'Stress'") && Contains("EffectiveStress_YY"));
+}
