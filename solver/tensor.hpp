@@ -25,7 +25,8 @@ struct Gradient {
 
   Gradient() = default;
   Gradient(double a, double b, double c, double d) : xx(a), xy(b), yx(c), yy(d) {}
-  Gradient(const Mat2& m) : xx(m(0, 0)), xy(m(0, 1)), yx(m(1, 0)), yy(m(1, 1)) {}  // NOLINT: the same thing
+  template <class Derived>
+  Gradient(const Eigen::MatrixBase<Derived>& m) : xx(m(0, 0)), xy(m(0, 1)), yx(m(1, 0)), yy(m(1, 1)) {}
   double trace() const { return xx + yy; }
 };
 
