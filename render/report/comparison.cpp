@@ -70,10 +70,10 @@ void draw_field(const Side& a, const Side& b, const MaterialPoints& points,
   std::vector<std::vector<double>> values;
   for (const ContourPanel& panel : figure.panels) values.push_back(panel.particles.values);
   figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
-  const bool smaller =
+  const bool a_is_coarser =
       a.run.scene && b.run.scene && a.run.scene->particles.spacing > b.run.scene->particles.spacing;
   figure.panels.push_back(
-      difference_panel(smaller ? a : b, points.at,
+      difference_panel(a_is_coarser ? a : b, points.at,
                        scaled(difference(points.sample_a(values_a), points.sample_b(values_b)), unit.factor),
                        a.label + " − " + b.label));
   const std::string delta = with_difference(shown_label(field, unit));
@@ -85,9 +85,10 @@ void draw_field(const Side& a, const Side& b, const MaterialPoints& points,
           scaled(difference(values_of(side.frame, field), fem->values(field, starts)), unit.factor),
           side.label + " − finite elements"));
     }
-    share_scale({&figure.panels[4], &figure.panels[5]}, delta);
   }
-  share_scale({&figure.panels[fem ? 3 : 2]}, delta);
+  std::vector<ContourPanel*> differences;
+  for (std::size_t i = values.size(); i < figure.panels.size(); ++i) differences.push_back(&figure.panels[i]);
+  share_scale(differences, delta);
   save_contours(figure, file);
 }
 
