@@ -11,7 +11,7 @@
 namespace porosph {
 namespace {
 
-enum : int { s_xx, s_yy, s_xy, pressure, density, sound, volume };  // lanes of a record
+enum : int { s_xx, s_yy, s_xy, pressure, density };  // lanes of a record
 
 }  // namespace
 
@@ -79,6 +79,9 @@ void PaperDynamics::search() {
   gradient_sum_.resize(n);
   wall_sums_.resize(n);
   records_.resize(points_.size());
+  volume_.resize(points_.size());
+  density_.resize(points_.size());
+  sound_.resize(points_.size());
   velocities_.resize(points_.size());
   artificial_stress_.assign(points_.size(), Eigen::Vector3d::Zero());
   ++counts.searches;
@@ -94,14 +97,37 @@ void PaperDynamics::move_ghosts() {
 void PaperDynamics::make_gradients() {
   const Particles& p = model_.particles;
   for (std::size_t a = 0; a < p.size(); ++a) {
-    records_[a].q[density] = p.density[a];
-    records_[a].q[volume] = p.volume(a);
-    records_[a].q[sound] = std::sqrt(model_.soils[p.soil[a]].shear_modulus / p.density[a]);  // eq. (16)
+    volume_[a] = p.volume(a);
+    density_[a] = p.density[a];
+    sound_[a] = std::sqrt(model_.soils[p.soil[a]].shear_modulus / p.density[a]);  // eq. (16)
   }
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) records_[p.size() + i] = records_[ghosts_[i].parent];
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
+    volume_[ghost] = volume_[parent], density_[ghost] = density_[parent], sound_[ghost] = sound_[parent];
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) make_gradients_of(a);
   ++counts.refreshes;
+}
+
+/// Uncorrected G_ab of a particle at `here`; returns sum_b G_ab (x) (x_b - x_a).
+Mat2 PaperDynamics::raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points,
+                                  const double* volumes, PairGradient* gradient) const {
+  const CubicSpline<2> kernel = kernel_;
+  const double* coordinates = points->data();
+  const double ax = here.x(), ay = here.y();
+  const std::int32_t* neighbour = index.data();
+  const auto count = static_cast<std::int64_t>(index.size());
+  double xx = 0, xy = 0, yy = 0;
+#pragma omp simd reduction(+ : xx, xy, yy)
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int64_t b = neighbour[k];
+    const double dx = coordinates[2 * b] - ax, dy = coordinates[2 * b + 1] - ay;
+    const double weight = -volumes[b] * kernel.slope(std::sqrt(dx * dx + dy * dy));
+    gradient[k].x = weight * dx, gradient[k].y = weight * dy;
+    xx += weight * dx * dx, xy += weight * dx * dy, yy += weight * dy * dy;
+  }
+  return (Mat2() << xx, xy, xy, yy).finished();
 }
 
 /// G_ab of all pairs of particle a, corrected by L of eq. (10), and their sums.
@@ -109,30 +135,24 @@ void PaperDynamics::make_gradients_of(std::size_t a) {
   const Vec2 here = points_[a];
   const std::int64_t first = neighbours_.begin[a], last = neighbours_.begin[a + 1];
   const std::int64_t wall_first = wall_neighbours_.begin[a], wall_last = wall_neighbours_.begin[a + 1];
-  Mat2 sum = Mat2::Zero();
-  for (std::int64_t k = first; k < last; ++k) {
-    const std::int32_t b = neighbours_.index[k];
-    const Vec2 to_b = points_[b] - here;
-    const double weight = -records_[b].q[volume] * kernel_.slope(to_b.norm());
-    gradient_[k] = {weight * to_b.x(), weight * to_b.y()};
-    sum += weight * to_b * to_b.transpose();
-  }
-  for (std::int64_t k = wall_first; k < wall_last; ++k) {
-    const std::int32_t b = wall_neighbours_.index[k];
-    const Vec2 to_b = virtual_points_[b] - here;
-    const double weight = -virtual_volume_[b] * kernel_.slope(to_b.norm());
-    wall_gradient_[k] = {weight * to_b.x(), weight * to_b.y()};
-    sum += weight * to_b * to_b.transpose();
-  }
+  Mat2 sum = raw_gradients(here, neighbours_.of(a), points_.data(), volume_.data(), gradient_.data() + first);
+  if (wall_first < wall_last)
+    sum += raw_gradients(here, wall_neighbours_.of(a), virtual_points_.data(), virtual_volume_.data(),
+                         wall_gradient_.data() + wall_first);
   const Mat2 correction = formulation_.kernel_correction ? correction_matrix(sum) : Mat2(Mat2::Identity());
 
-  Vec2 total = Vec2::Zero();
+  const double cxx = correction(0, 0), cxy = correction(0, 1), cyx = correction(1, 0), cyy = correction(1, 1);
+  PairGradient* gradient = gradient_.data();
+  double total_x = 0, total_y = 0;
+#pragma omp simd reduction(+ : total_x, total_y)
   for (std::int64_t k = first; k < last; ++k) {
-    const Vec2 g = correction * Vec2(gradient_[k].x, gradient_[k].y);
-    gradient_[k] = {g.x(), g.y()};
-    total += g;
+    const double gx = cxx * gradient[k].x + cxy * gradient[k].y, gy = cyx * gradient[k].x + cyy * gradient[k].y;
+    gradient[k].x = gx, gradient[k].y = gy;
+    total_x += gx, total_y += gy;
   }
-  gradient_sum_[a] = total;
+  gradient_sum_[a] = Vec2(total_x, total_y);
+  wall_sums_[a] = {};
+  if (wall_first == wall_last) return;
 
   WallSums walls;
   for (std::int64_t k = wall_first; k < wall_last; ++k) {
@@ -164,6 +184,7 @@ void PaperDynamics::fill_records() {
     Lanes& q = records_[a].q;
     q[s_xx] = s.xx * scale, q[s_yy] = s.yy * scale, q[s_xy] = s.xy * scale;
     q[pressure] = p.pore_pressure[a];
+    q[density] = p.density[a];
   }
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     Lanes q = records_[ghosts_[i].parent].q;
@@ -193,12 +214,19 @@ void PaperDynamics::fill_artificial_stress() {
 
 /// The sums of eqs. (17), (24) and (25) without C_ab.
 Vec2 PaperDynamics::stress_and_pressure(std::size_t a) const {
-  PairSums sums;
-  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-    const Lanes q = records_[neighbours_.index[k]].q;
-    sums.x += q * gradient_[k].x;
-    sums.y += q * gradient_[k].y;
+  const Record* records = records_.data();
+  const std::int32_t* index = neighbours_.index.data();
+  const PairGradient* gradient = gradient_.data();
+  const std::int64_t last = neighbours_.begin[a + 1];
+  PairSums sums, sums2;  // two of each: an addition need not wait for the one before
+  std::int64_t k = neighbours_.begin[a];
+  for (; k + 1 < last; k += 2) {
+    const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
+    sums.x += q * gradient[k].x, sums2.x += q2 * gradient[k + 1].x;
+    sums.y += q * gradient[k].y, sums2.y += q2 * gradient[k + 1].y;
   }
+  if (k < last) sums.x += records[index[k]].q * gradient[k].x, sums.y += records[index[k]].q * gradient[k].y;
+  sums.x += sums2.x, sums.y += sums2.y;
   const Particles& p = model_.particles;
   const double rho = p.density[a];
   const Mat2 stress = p.stress[a].in_plane();
@@ -214,23 +242,41 @@ Vec2 PaperDynamics::stress_and_pressure(std::size_t a) const {
   return others + stress * weighted / (rho * rho) + (2 * stress * walls.gradient + pressure_sum) / rho;
 }
 
-/// sum_b m_b C_ab grad W_ab over particles and ghosts.
-Vec2 PaperDynamics::stabilisation(std::size_t a) const {
-  const Particles& p = model_.particles;
-  const double h = kernel_.h, at_spacing = kernel_.value(model_.spacing);
+/// sum_b m_b C_ab grad W_ab over particles and ghosts: artificial viscosity.
+Vec2 PaperDynamics::viscous(std::size_t a) const {
+  const ArtificialViscosity viscosity = viscosity_;
+  const double* x = points_[0].data();
+  const double* v = velocities_[0].data();
+  const std::int32_t* index = neighbours_.index.data();
+  const PairGradient* gradient = gradient_.data();
+  const double *density = density_.data(), *sound = sound_.data();
+  const double ax = points_[a].x(), ay = points_[a].y(), avx = velocities_[a].x(), avy = velocities_[a].y();
+  const double rho_a = density[a], c_a = sound[a], h = kernel_.h;
+  double force_x = 0, force_y = 0;
+#pragma omp simd reduction(+ : force_x, force_y)
+  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
+    const std::int64_t b = index[k];
+    const double dx = ax - x[2 * b], dy = ay - x[2 * b + 1];
+    const double vx = (avx - v[2 * b]) * dx + (avy - v[2 * b + 1]) * dy;
+    const double pi = viscosity.pair(vx, dx * dx + dy * dy, h, 0.5 * (c_a + sound[b]), 0.5 * (rho_a + density[b]));
+    force_x -= density[b] * pi * gradient[k].x;
+    force_y -= density[b] * pi * gradient[k].y;
+  }
+  return {force_x, force_y};
+}
+
+/// The same: artificial stress.
+Vec2 PaperDynamics::tension_control(std::size_t a) const {
+  const double at_spacing = kernel_.value(model_.spacing);
   Vec2 force = Vec2::Zero();
   for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
     const std::int32_t b = neighbours_.index[k];
-    const Vec2 x = points_[a] - points_[b], v = velocities_[a] - velocities_[b];
-    const double r2 = x.squaredNorm(), rho = records_[b].q[density];
-    const Vec2 g(gradient_[k].x, gradient_[k].y);
-    const double c = 0.5 * (records_[a].q[sound] + records_[b].q[sound]);
-    const double pi = viscosity_.pair(v.dot(x), r2, h, c, 0.5 * (p.density[a] + rho));
-    force -= rho * pi * g;
-    if (!any_tension_) continue;
     const Eigen::Vector3d r = artificial_stress_[a] + artificial_stress_[b];
-    const double f = std::pow(kernel_.value(std::sqrt(r2)) / at_spacing, artificial_exponent_);
-    force += rho * f * Vec2(r[0] * g.x() + r[2] * g.y(), r[2] * g.x() + r[1] * g.y());
+    if (r.isZero(0)) continue;
+    const PairGradient g = gradient_[k];
+    const double distance = (points_[a] - points_[b]).norm();
+    const double f = std::pow(kernel_.value(distance) / at_spacing, artificial_exponent_);
+    force += density_[b] * f * Vec2(r[0] * g.x + r[2] * g.y, r[2] * g.x + r[1] * g.y);
   }
   return force;
 }
@@ -243,7 +289,7 @@ Vec2 PaperDynamics::stabilisation_at_walls(std::size_t a) const {
   for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
     const Vec2 x = points_[a] - virtual_points_[wall_neighbours_.index[k]], v = stickiness_[k] * velocities_[a];
     const Vec2 g(wall_gradient_[k].x, wall_gradient_[k].y);
-    force -= rho * viscosity_.pair(v.dot(x), x.squaredNorm(), kernel_.h, records_[a].q[sound], rho) * g;
+    force -= rho * viscosity_.pair(v.dot(x), x.squaredNorm(), kernel_.h, sound_[a], rho) * g;
     if (!any_tension_) continue;
     const Eigen::Vector3d r = 2 * artificial_stress_[a];
     const double f = std::pow(kernel_.value(x.norm()) / at_spacing, artificial_exponent_);
@@ -260,21 +306,29 @@ void PaperDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < model_.particles.size(); ++a) {
     out[a] = stress_and_pressure(a) + model_.gravity;
-    if (stabilised) out[a] += stabilisation(a) + stabilisation_at_walls(a);
+    if (viscosity_.active()) out[a] += viscous(a);
+    if (any_tension_) out[a] += tension_control(a);
+    if (stabilised) out[a] += stabilisation_at_walls(a);
   }
 }
 
 /// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
 Mat2 PaperDynamics::velocity_gradient(std::size_t a) const {
-  double xx = 0, xy = 0, yx = 0, yy = 0;
-  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-    const Vec2& v = velocities_[neighbours_.index[k]];
-    const PairGradient g = gradient_[k];
-    xx += v.x() * g.x, xy += v.x() * g.y;
-    yx += v.y() * g.x, yy += v.y() * g.y;
+  const double* velocities = velocities_[0].data();
+  const auto velocity = [&](std::int64_t k) { return load_pair(velocities + 2 * neighbours_.index[k]); };
+  const PairGradient* gradient = gradient_.data();
+  Pair x{}, y{}, x2{}, y2{};  // sums of v G_x and of v G_y, two of each
+  const std::int64_t last = neighbours_.begin[a + 1];
+  std::int64_t k = neighbours_.begin[a];
+  for (; k + 1 < last; k += 2) {
+    const Pair v = velocity(k), v2 = velocity(k + 1);
+    x += v * gradient[k].x, x2 += v2 * gradient[k + 1].x;
+    y += v * gradient[k].y, y2 += v2 * gradient[k + 1].y;
   }
+  if (k < last) x += velocity(k) * gradient[k].x, y += velocity(k) * gradient[k].y;
+  x += x2, y += y2;
   const Vec2 own = gradient_sum_[a] + wall_sums_[a].velocity;
-  return (Mat2() << xx, xy, yx, yy).finished() - velocities_[a] * own.transpose();
+  return (Mat2() << x[0], y[0], x[1], y[1]).finished() - velocities_[a] * own.transpose();
 }
 
 void PaperDynamics::velocity_gradients(std::span<Mat2> out) {

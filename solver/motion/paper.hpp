@@ -30,11 +30,14 @@ class PaperDynamics final : public Dynamics {
   void move_ghosts();
   void make_gradients();
   void make_gradients_of(std::size_t a);
+  Mat2 raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points, const double* volumes,
+                     PairGradient* gradient) const;
   void fill_ghost_velocities();
   void fill_records();
   void fill_artificial_stress();
   Vec2 stress_and_pressure(std::size_t a) const;
-  Vec2 stabilisation(std::size_t a) const;
+  Vec2 viscous(std::size_t a) const;
+  Vec2 tension_control(std::size_t a) const;
   Vec2 stabilisation_at_walls(std::size_t a) const;
   Mat2 velocity_gradient(std::size_t a) const;
 
@@ -53,6 +56,7 @@ class PaperDynamics final : public Dynamics {
   std::vector<double> virtual_pressure_;
 
   std::vector<Vec2> points_, velocities_;  ///< of particles, then ghosts
+  std::vector<double> volume_, density_, sound_;  ///< of particles, then ghosts
   std::vector<Image> ghosts_;
   std::vector<std::int32_t> ghost_root_;  ///< the particle that each ghost stems from
   std::vector<Vec2> searched_;  ///< positions at the last search
