@@ -28,7 +28,8 @@ void print_model(const Simulation& s) {
   const Model& m = s.model();
   fmt::print("{:18}{}\n", "particles", m.particles.size());
   for (std::size_t i = 0; i < m.soils.size(); ++i) {
-    const auto count = std::count(m.particles.soil.begin(), m.particles.soil.end(), static_cast<std::int32_t>(i));
+    const auto count =
+        std::count(m.particles.soil.begin(), m.particles.soil.end(), static_cast<std::int32_t>(i));
     fmt::print("  {:16}{} of '{}', K = {:.4g} MPa, G = {:.4g} MPa\n", "", count, s.scene().soils[i].name,
                m.soils[i].bulk_modulus / 1e6, m.soils[i].shear_modulus / 1e6);
   }
@@ -36,7 +37,8 @@ void print_model(const Simulation& s) {
   fmt::print("{:18}{}\n", "walls", m.walls.size());
   fmt::print("{:18}{}\n", "formulation", motion_name(s.scene().formulation.motion));
   fmt::print("{:18}{:.4g} m/s\n", "wave speed c_p", m.wave_speed);
-  fmt::print("{:18}{:.4g} s, {} steps to {:g} s\n", "time step", s.time_step(), s.last_step(), s.scene().time.end);
+  fmt::print("{:18}{:.4g} s, {} steps to {:g} s\n", "time step", s.time_step(), s.last_step(),
+             s.scene().time.end);
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ int check_command(const Arguments& arguments) {
   std::vector<std::string> overrides;
   po::options_description options;
   options.add_options()("case", po::value(&case_file)->required(), "the case file")(
-      "set", po::value(&overrides)->value_name("KEY=VALUE"), "replaces a setting of the case; may be given again");
+      "set", po::value(&overrides)->value_name("KEY=VALUE"),
+      "replaces a setting of the case; may be given again");
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;

@@ -11,7 +11,14 @@ namespace porosph::app {
 using Arguments = std::vector<std::string>;
 
 /// Exit statuses that other programs rely on.
-enum Exit : int { done = 0, failed_threshold = 1, wrong_input = 2, unstable = 3, file_failure = 4, interrupted = 130 };
+enum Exit : int {
+  done = 0,
+  failed_threshold = 1,
+  wrong_input = 2,
+  unstable = 3,
+  file_failure = 4,
+  interrupted = 130
+};
 
 struct Command {
   std::string name, summary;

@@ -7,7 +7,8 @@
 
 namespace porosph::app {
 
-/// On a terminal one line that is written over, otherwise a plain line every ten seconds. Writes to standard error.
+/// On a terminal one line that is written over, otherwise a plain line every ten seconds. Writes to standard
+/// error.
 class Progress {
  public:
   explicit Progress(bool quiet);

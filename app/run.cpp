@@ -43,14 +43,13 @@ std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
   std::string case_file, folder;
   po::options_description options;
-  options.add_options()
-      ("case", po::value(&case_file)->required(), "the case file")
-      ("out", po::value(&folder)->value_name("DIR"), "folder for the results (default: results/<case>)")
-      ("set", po::value(&o.overrides)->value_name("KEY=VALUE"),
-       "replaces a setting of the case; may be given again, e.g. formulation.motion=proposed")
-      ("threads", po::value(&o.threads)->value_name("N"), "threads to compute with (default: all cores)")
-      ("no-frames", "write history and summary only")
-      ("quiet", "say nothing unless something is wrong");
+  options.add_options()("case", po::value(&case_file)->required(), "the case file")(
+      "out", po::value(&folder)->value_name("DIR"), "folder for the results (default: results/<case>)")(
+      "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
+      "replaces a setting of the case; may be given again, e.g. formulation.motion=proposed")(
+      "threads", po::value(&o.threads)->value_name("N"),
+      "threads to compute with (default: the cores that the particles keep busy)")(
+      "no-frames", "write history and summary only")("quiet", "say nothing unless something is wrong");
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
@@ -61,13 +60,15 @@ std::optional<Options> read_options(const Arguments& arguments) {
              values))
     return std::nullopt;
   o.case_file = case_file;
-  o.folder = folder.empty() ? std::filesystem::path("results") / o.case_file.stem() : std::filesystem::path(folder);
+  o.folder =
+      folder.empty() ? std::filesystem::path("results") / o.case_file.stem() : std::filesystem::path(folder);
   o.frames = values.count("no-frames") == 0;
   o.quiet = values.count("quiet") > 0;
   if (values.count("threads") > 0 && (o.threads < 1 || o.threads > 1024))
     throw UsageError(fmt::format("--threads = {}: must be from 1 to 1024", o.threads));
 #ifndef POROSPH_HAS_VTK
-  if (o.frames && !o.quiet) std::cerr << "built without VTK: history and summary are written, frames are not\n";
+  if (o.frames && !o.quiet)
+    std::cerr << "built without VTK: history and summary are written, frames are not\n";
   o.frames = false;
 #endif
   return o;
@@ -108,6 +109,12 @@ class Results {
 #endif
 };
 
+/// More threads than this would wait for each other.
+int useful_threads(std::size_t particles) {
+  constexpr std::size_t particles_per_thread = 4000;
+  return std::clamp(static_cast<int>(particles / particles_per_thread), 1, omp_get_num_procs());
+}
+
 int exit_of(RunStatus status) {
   if (status == RunStatus::unstable) return Exit::unstable;
   return status == RunStatus::interrupted ? Exit::interrupted : Exit::done;
@@ -119,8 +126,9 @@ int run_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
   const auto start = std::chrono::steady_clock::now();
-  if (options->threads > 0) omp_set_num_threads(options->threads);
   Simulation simulation(read_case(options->case_file, options->overrides));
+  omp_set_num_threads(options->threads > 0 ? options->threads
+                                           : useful_threads(simulation.model().particles.size()));
   Results results(*options, simulation);
   if (!options->quiet)
     fmt::print("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,
@@ -140,7 +148,8 @@ int run_command(const Arguments& arguments) {
   const Summary summary = summarise(simulation, outcome, wall.count());
   results.finish(summary);
   if (!options->quiet) std::cout << tell(summary);
-  if (outcome.status == RunStatus::unstable && options->quiet) std::cerr << "porosph: unstable: " << outcome.message << '\n';
+  if (outcome.status == RunStatus::unstable && options->quiet)
+    std::cerr << "porosph: unstable: " << outcome.message << '\n';
   return exit_of(outcome.status);
 }
 

@@ -71,11 +71,11 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
 
 std::string tell(const Summary& s) {
   static constexpr const char* endings[] = {"completed", "in equilibrium", "unstable", "interrupted"};
-  std::string text = fmt::format("{} at {:.6g} s, {} steps of {:.3g} s", endings[static_cast<int>(s.status)], s.time,
-                                 s.steps, s.time_step);
+  std::string text = fmt::format("{} at {:.6g} s, {} steps of {:.3g} s", endings[static_cast<int>(s.status)],
+                                 s.time, s.steps, s.time_step);
   if (!s.message.empty()) text += ": " + s.message;
-  text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n", s.particles,
-                      s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);
+  text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n",
+                      s.particles, s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);
   if (std::isfinite(s.unbalanced_force_ratio))
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
   for (const auto& [name, probe] : s.probes)
@@ -83,8 +83,9 @@ std::string tell(const Summary& s) {
                         probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
-    text += fmt::format("{} against the exact solution: {:.3f} % (L2), at most {:.3f} {}\n", field,
-                        100 * error.relative_l2, error.max_abs / (stress ? 1e3 : 1e-3), stress ? "kPa" : "mm");
+    text +=
+        fmt::format("{} against the exact solution: {:.3f} % (L2), at most {:.3f} {}\n", field,
+                    100 * error.relative_l2, error.max_abs / (stress ? 1e3 : 1e-3), stress ? "kPa" : "mm");
   }
   return text;
 }

@@ -19,7 +19,8 @@ struct Stress {
   Stress operator*(double s) const { return {xx * s, yy * s, zz * s, xy * s}; }
 };
 
-/// Gradient of a plane vector field, d(first)/d(second). Plain numbers, so that loops over it become vector code.
+/// Gradient of a plane vector field, d(first)/d(second). Plain numbers, so that loops over it become vector
+/// code.
 struct Gradient {
   double xx = 0, xy = 0, yx = 0, yy = 0;
 

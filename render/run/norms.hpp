@@ -34,7 +34,8 @@ struct LeftOut {
   double radius = 0;  ///< [m]
 };
 
-/// Throws std::runtime_error, naming what differs, if the reference is of another soil, outline or water than the run.
+/// Throws std::runtime_error, naming what differs, if the reference is of another soil, outline or water than
+/// the run.
 void require_same_problem(const FinishedRun& run, const FemReference& fem);
 
 /// The run's particles against the finite-element reference, without those near `left_out` or outside of its

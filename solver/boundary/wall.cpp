@@ -45,10 +45,12 @@ bool Wall::faces(const Vec2& p, double range) const {
   if (away < on_line * range || away >= range) return false;
   const Vec2 line = to - from;
   const double length = line.norm(), along = (p - from).dot(line) / length, slack = on_line * range;
-  return along >= (continued_at_from ? -range : -slack) && along < (continued_at_to ? length + range : length - slack);
+  return along >= (continued_at_from ? -range : -slack) &&
+         along < (continued_at_to ? length + range : length - slack);
 }
 
-std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points, double range) {
+std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
+                             double range) {
   std::vector<Wall> walls;
   for (const BoundaryCase& b : boundaries) walls.push_back({.kind = b.kind, .from = b.from, .to = b.to});
   for (Wall& wall : walls) {
@@ -56,7 +58,8 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
     wall.bears_weight = wall.kind == BoundaryKind::fixed || std::abs(wall.normal.y()) > 1e-9;
   }
   const auto rank = [](const Wall& w) { return w.kind == BoundaryKind::fixed ? 0 : w.bears_weight ? 1 : 2; };
-  std::stable_sort(walls.begin(), walls.end(), [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
+  std::stable_sort(walls.begin(), walls.end(),
+                   [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
   for (Wall& wall : walls) {
     wall.continued_at_from = met_at(wall.from, wall, walls);
     wall.continued_at_to = met_at(wall.to, wall, walls);

@@ -14,10 +14,13 @@ struct Wall {
   BoundaryKind kind = BoundaryKind::fixed;
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< [m]
   Vec2 normal = Vec2::Zero();                   ///< unit, towards the soil
-  bool bears_weight = false;                    ///< stress changes across it: fixed, or gravity acts through it
-  bool continued_at_from = false, continued_at_to = false;  ///< another wall meets this one there, at an angle
+  bool bears_weight = false;  ///< stress changes across it: fixed, or gravity acts through it
+  bool continued_at_from = false,
+       continued_at_to = false;  ///< another wall meets this one there, at an angle
 
-  double distance(const Vec2& p) const { return (p - from).dot(normal); }  ///< positive on the soil's side [m]
+  double distance(const Vec2& p) const {
+    return (p - from).dot(normal);
+  }  ///< positive on the soil's side [m]
   Vec2 mirrored(const Vec2& p) const { return p - 2 * distance(p) * normal; }
   Mat2 reflection() const { return Mat2::Identity() - 2 * normal * normal.transpose(); }
   bool faces(const Vec2& p, double range) const;  ///< p lies within `range` in front of the segment
@@ -32,9 +35,11 @@ struct Image {
 /// The particle that each image stems from; the first `particles` parents are no images.
 std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles);
 
-/// Walls of a case, each facing the soil that `points` stand for. Fixed ones first, then rollers that bear weight, then
-/// the others: each mirrors what those before it made. Throws std::runtime_error where a boundary touches no soil.
-std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points, double range);
+/// Walls of a case, each facing the soil that `points` stand for. Fixed ones first, then rollers that bear
+/// weight, then the others: each mirrors what those before it made. Throws std::runtime_error where a
+/// boundary touches no soil.
+std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
+                             double range);
 
 /// Appends to `points` the images, in walls `first` to `last - 1`, of all points within `range` [m] of them.
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,

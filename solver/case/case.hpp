@@ -9,8 +9,8 @@
 
 namespace porosph {
 
-using Point = Eigen::Vector2d;         ///< position in the plane, x to the right, y upwards [m]
-using Polygon = std::vector<Point>;    ///< closed outline, last point not repeated, either orientation [m]
+using Point = Eigen::Vector2d;       ///< position in the plane, x to the right, y upwards [m]
+using Polygon = std::vector<Point>;  ///< closed outline, last point not repeated, either orientation [m]
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
 /// How the particles fill the soil's polygons.
@@ -24,8 +24,8 @@ struct ParticlesCase {
   double spacing = 0;            ///< dx [m]
   double smoothing_ratio = 1.2;  ///< h / dx
   Arrangement arrangement = Arrangement::lattice;
-  double disorder = 0;    ///< largest random displacement / dx, with Arrangement::disordered
-  int seed = 1;           ///< of the random displacements
+  double disorder = 0;  ///< largest random displacement / dx, with Arrangement::disordered
+  int seed = 1;         ///< of the random displacements
 };
 
 /// One soil: where it is and what it is. Linear elastic (eqs. 26-30), optionally without tension.
@@ -37,11 +37,11 @@ struct SoilCase {
   double poissons_ratio = 0;           ///< nu [-]
   double unit_weight_saturated = 0;    ///< gamma_sat [N/m3]
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
-  bool no_tension = false;             ///< mean effective stress cut off at zero
+  bool no_tension = false;             ///< no effective stress where its mean would be tensile
   Point velocity = Point::Zero();      ///< initial velocity [m/s]
   double angular_velocity = 0;         ///< initial, counter-clockwise about the polygon's middle [rad/s]
-  double bending_velocity = 0;  ///< initial, upwards at the tip of a plate clamped at its left end, in the shape of the
-                                ///< first mode [m/s]
+  double bending_velocity = 0;  ///< initial, upwards at the tip of a plate clamped at its left end, in the
+                                ///< shape of the first mode [m/s]
 };
 
 /// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.
@@ -73,22 +73,23 @@ enum class Motion {
 };
 struct FormulationCase {
   Motion motion = Motion::consistent;
-  bool kernel_correction = true;        ///< eqs. (9), (10)
+  bool kernel_correction = true;          ///< eqs. (9), (10)
   double artificial_viscosity_alpha = 0;  ///< linear term of the pairwise artificial viscosity [-]
   double artificial_viscosity_beta = 0;   ///< quadratic term [-]
   double artificial_stress = 0;           ///< epsilon of the artificial stress [-]; 0 is off
   double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
-  double zero_energy_control = 0;         ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
-  double refresh_strain = 0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
+  double zero_energy_control = 0;  ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
+  double refresh_strain =
+      0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
 };
 
 struct LoadingCase {
   double gravity = 9.81;        ///< g, downwards; also turns unit weight into density [m/s2]
   bool gravity_applied = true;  ///< false: weightless scene (collisions, vibrations)
   bool k0_stress = false;       ///< start from the K0 stress instead of zero stress
-  double k0 = -1;               ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
-  double damping = 0;           ///< xi of eq. (34) [-]
-  double damping_until = never; ///< time at which the damping ends [s]
+  double k0 = -1;      ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
+  double damping = 0;  ///< xi of eq. (34) [-]
+  double damping_until = never;  ///< time at which the damping ends [s]
 };
 
 struct TimeCase {
@@ -105,9 +106,9 @@ struct StopCase {
 struct OutputCase {
   double interval = 0;          ///< between frames; 0: first and last only [s]
   double history_interval = 0;  ///< between rows of the history; 0: every step [s]
-  std::vector<std::string> fields = {"Displacement", "Velocity",        "EffectiveStress", "TotalStress",
-                                     "PorePressure", "Density",         "Mass",            "SmoothingLength",
-                                     "SoilId",       "ParticleId"};
+  std::vector<std::string> fields = {
+      "Displacement", "Velocity", "EffectiveStress", "TotalStress", "PorePressure",
+      "Density",      "Mass",     "SmoothingLength", "SoilId",      "ParticleId"};
 };
 
 struct ProbeCase {

@@ -14,11 +14,6 @@ constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 
-std::string default_by_motion(double FormulationCase::*setting) {
-  return fmt::format("{} (consistent), {} (others)", default_formulation(Motion::consistent).*setting,
-                     default_formulation(Motion::proposed).*setting);
-}
-
 bool level_everywhere(const WaterCase& c) {
   return c.stretches.size() == 1 && c.stretches[0].x_from == -never && c.stretches[0].x_to == never;
 }
@@ -109,13 +104,14 @@ void declare(Fields& f, SoilCase& c) {
   if (c.unit_weight_unsaturated > c.unit_weight_saturated)
     f.reject("unit_weight_unsaturated",
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
-  f.flag(Key("no_tension", "", "Whether the mean effective stress is cut off at zero."), c.no_tension);
+  f.flag(Key("no_tension", "", "No tension and no cohesion: no effective stress where its mean would be tensile."), c.no_tension);
   f.point(Key("velocity", "m/s", "At the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
                "At the start: counter-clockwise, about the middle of the polygon's bounding box."),
            c.angular_velocity, between(-1e6, 1e6));
   f.number(Key("bending_velocity", "m/s",
-               "At the start: upwards at the right end of a plate that is clamped at its left end, elsewhere in the "
+               "At the start: upwards at the right end of a plate that is clamped at its left end, elsewhere "
+               "in the "
                "shape of the first bending mode. For an upright rectangle."),
            c.bending_velocity, between(-1e6, 1e6));
 }
@@ -159,19 +155,20 @@ void declare(Fields& f, FormulationCase& c) {
   f.set_defaults([&] { c = default_formulation(c.motion); });
   f.flag(Key("kernel_correction", "", "Gradients exact for linear fields, eqs. (9) and (10)."),
          c.kernel_correction);
-  const auto key = [](std::string_view name, std::string_view meaning, double FormulationCase::*setting) {
-    return Key(name, "", meaning).otherwise(default_by_motion(setting));
+  const bool consistent = c.motion == Motion::consistent;
+  const auto key = [&](std::string_view name, std::string_view meaning) {
+    return Key(name, "", meaning).only_if(!consistent, "motion = one of the paper's forms");
   };
-  f.number(key("artificial_viscosity_alpha", "Linear term of the viscosity between pairs; 0: off.",
-               &FormulationCase::artificial_viscosity_alpha),
+  const FormulationCase paper = default_formulation(Motion::proposed);
+  f.number(key("artificial_viscosity_alpha", "Linear term of the viscosity between pairs; 0: off.")
+               .otherwise(fmt::to_string(paper.artificial_viscosity_alpha)),
            c.artificial_viscosity_alpha, between(0, 10));
-  f.number(Key("artificial_viscosity_beta", "", "Quadratic term of the viscosity between pairs; 0: off."),
+  f.number(key("artificial_viscosity_beta", "Quadratic term of the viscosity between pairs; 0: off."),
            c.artificial_viscosity_beta, between(0, 10));
-  f.number(key("artificial_stress", "Strength of the artificial stress against clumping; 0: off.",
-               &FormulationCase::artificial_stress),
+  f.number(key("artificial_stress", "Strength of the artificial stress against clumping; 0: off.")
+               .otherwise(fmt::to_string(paper.artificial_stress)),
            c.artificial_stress, between(0, 1));
 
-  const bool consistent = c.motion == Motion::consistent;
   const auto key_of_consistent = [&](std::string_view name, std::string_view meaning) {
     return Key(name, "", meaning).only_if(consistent, "motion = \"consistent\"");
   };

@@ -1,42 +1,42 @@
 // Linear elastic soil with the Jaumann rate, eqs. (26)-(31).
 #pragma once
 
-#include <algorithm>
-
 #include "solver/tensor.hpp"
 
 namespace porosph {
 
-/// Isotropic linear elasticity of the soil skeleton; optionally the mean effective stress is cut off at zero.
+/// Isotropic linear elasticity of the soil skeleton; optionally without tension and cohesion: no stress
+/// remains where the mean effective stress would be tensile (the apex of a cohesionless cone).
 struct LinearElastic {
   double shear_modulus = 0;  ///< G [Pa]
   double bulk_modulus = 0;   ///< K [Pa]
   bool no_tension = false;
 
   static LinearElastic from_young(double youngs_modulus, double poissons_ratio, bool no_tension = false) {
-    return {youngs_modulus / (2 * (1 + poissons_ratio)), youngs_modulus / (3 * (1 - 2 * poissons_ratio)), no_tension};
+    return {youngs_modulus / (2 * (1 + poissons_ratio)), youngs_modulus / (3 * (1 - 2 * poissons_ratio)),
+            no_tension};
   }
 
   /// M = K + 4 G / 3, modulus of one-dimensional compression [Pa].
   double constrained_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }
 
-  /// Effective stress rate of eq. (28) for the strain rate D, the symmetric part of the velocity gradient [Pa/s]; the
-  /// rotation terms of eq. (30) come apart.
+  /// Effective stress rate of eq. (28) for the strain rate D, the symmetric part of the velocity gradient
+  /// [Pa/s]; the rotation terms of eq. (30) come apart.
   Stress elastic_rate(const Gradient& velocity_gradient) const {
     const double lambda = bulk_modulus - 2 * shear_modulus / 3, g2 = 2 * shear_modulus;
     const double pressure_rate = lambda * velocity_gradient.trace();
-    return {pressure_rate + g2 * velocity_gradient.xx, pressure_rate + g2 * velocity_gradient.yy, pressure_rate,
-            shear_modulus * (velocity_gradient.xy + velocity_gradient.yx)};
+    return {pressure_rate + g2 * velocity_gradient.xx, pressure_rate + g2 * velocity_gradient.yy,
+            pressure_rate, shear_modulus * (velocity_gradient.xy + velocity_gradient.yx)};
   }
 
-  /// Effective stress after a step dt [s] with the velocity gradient dv_i/dx_j at the middle of the step [1/s]: the old
-  /// stress turned by the step's rotation (Hughes and Winget 1980: exact for a rigid rotation), plus eq. (28).
+  /// Effective stress after a step dt [s] with the velocity gradient dv_i/dx_j at the middle of the step
+  /// [1/s]: the old stress turned by the step's rotation (Hughes and Winget 1980: exact for a rigid
+  /// rotation), plus eq. (28).
   Stress update(const Stress& old, const Gradient& velocity_gradient, double dt) const {
     const double spin = 0.5 * (velocity_gradient.yx - velocity_gradient.xy);  // omega_yx of eq. (31)
-    Stress stress = turned(old, 0.5 * spin * dt) + elastic_rate(velocity_gradient) * dt;
-    const double tension = no_tension ? std::max(0.0, stress.mean()) : 0.0;
-    stress.xx -= tension, stress.yy -= tension, stress.zz -= tension;
-    return stress;
+    const Stress stress = turned(old, 0.5 * spin * dt) + elastic_rate(velocity_gradient) * dt;
+    // Without cohesion there is no shear strength left either where the mean stress has gone to zero.
+    return stress * (no_tension && stress.mean() > 0 ? 0.0 : 1.0);
   }
 
  private:

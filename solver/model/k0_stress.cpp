@@ -20,8 +20,8 @@ std::vector<double> crossings(const Polygon& outline, double x) {
 }
 
 struct Overburden {
-  double weight = 0;            // of soil with the water in it [Pa]
-  double top = -never;          // highest soil above the point [m]
+  double weight = 0;    // of soil with the water in it [Pa]
+  double top = -never;  // highest soil above the point [m]
 };
 
 void add_soil(const SoilCase& soil, const Water& water, const Point& p, Overburden& sum) {

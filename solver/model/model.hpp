@@ -26,7 +26,8 @@ struct Model {
 /// Throws std::runtime_error where a soil holds no particle or a boundary touches none.
 Model build_model(const Case& scene);
 
-/// K0 stress of a particle: the weight of the soil and water above it, along a vertical line (effective) [Pa].
+/// K0 stress of a particle: the weight of the soil and water above it, along a vertical line (effective)
+/// [Pa].
 Stress k0_stress(const Case& scene, const Point& position, double k0);
 
 }  // namespace porosph

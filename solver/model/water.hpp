@@ -26,7 +26,8 @@ class Water {
   /// p_w, negative in compression, zero above the level (eq. 12) [Pa].
   double pore_pressure(double x, double y) const { return -unit_weight_ * std::max(0.0, depth(x, y)); }
 
-  /// p_w behind a wall: at the image's height, below the level in front of the wall (a stretch may end there) [Pa].
+  /// p_w behind a wall: at the image's height, below the level in front of the wall (a stretch may end there)
+  /// [Pa].
   double pore_pressure_behind_wall(const Point& particle, const Point& image) const {
     return pore_pressure(particle.x(), image.y());
   }

@@ -12,7 +12,8 @@ namespace porosph {
 namespace {
 
 std::string name_of(const Particles& p, std::size_t i) {
-  return fmt::format("particle {} (from x = {:.4g} m, y = {:.4g} m)", p.id[i], p.start[i].x(), p.start[i].y());
+  return fmt::format("particle {} (from x = {:.4g} m, y = {:.4g} m)", p.id[i], p.start[i].x(),
+                     p.start[i].y());
 }
 
 bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); }
@@ -23,12 +24,15 @@ std::optional<std::string> find_runaway(const Model& model, double time) {
   const Particles& p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!p.velocity[i].allFinite() || !p.position[i].allFinite() || !finite(p.stress[i]))
-      return fmt::format("at {:.6g} s {} is no longer finite; the usual cause is a time step that is too large "
-                         "(time.courant)", time, name_of(p, i));
+      return fmt::format(
+          "at {:.6g} s {} is no longer finite; the usual cause is a time step that is too large "
+          "(time.courant)",
+          time, name_of(p, i));
     if (p.velocity[i].norm() > model.wave_speed)
-      return fmt::format("at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); the usual "
-                         "cause is a time step that is too large (time.courant), or soil that pulls itself apart",
-                         time, name_of(p, i), p.velocity[i].norm(), model.wave_speed);
+      return fmt::format(
+          "at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); the usual "
+          "cause is a time step that is too large (time.courant), or soil that pulls itself apart",
+          time, name_of(p, i), p.velocity[i].norm(), model.wave_speed);
   }
   return std::nullopt;
 }
@@ -66,11 +70,13 @@ std::optional<std::string> find_separation(const Model& model, std::int64_t bodi
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return size[a] > size[b]; });
   const std::int32_t thrown = order[bodies_at_start];
-  const auto first = static_cast<std::size_t>(
-      std::find(bodies.body.begin(), bodies.body.end(), thrown) - bodies.body.begin());
-  return fmt::format("at {:.6g} s {} and {} more have left the soil body, at ({:.4g}, {:.4g}) m; with water above the ground "
-                     "the usual cause is the conventional formulation (formulation.motion)",
-                     time, name_of(p, first), size[thrown] - 1, p.position[first].x(), p.position[first].y());
+  const auto first = static_cast<std::size_t>(std::find(bodies.body.begin(), bodies.body.end(), thrown) -
+                                              bodies.body.begin());
+  return fmt::format(
+      "at {:.6g} s {} and {} more have left the soil body, at ({:.4g}, {:.4g}) m; with water above the "
+      "ground "
+      "the usual cause is the conventional formulation (formulation.motion)",
+      time, name_of(p, first), size[thrown] - 1, p.position[first].x(), p.position[first].y());
 }
 
 }  // namespace porosph

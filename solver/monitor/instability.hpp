@@ -11,10 +11,12 @@
 
 namespace porosph {
 
-/// The first particle that is not finite or moves faster than the fastest wave, in words; empty when there is none.
+/// The first particle that is not finite or moves faster than the fastest wave, in words; empty when there is
+/// none.
 std::optional<std::string> find_runaway(const Model& model, double time);
 
-/// Groups of particles that hang together: chains of distances below the kernel's support. Group number per particle.
+/// Groups of particles that hang together: chains of distances below the kernel's support. Group number per
+/// particle.
 struct Bodies {
   std::int64_t count = 0;
   std::vector<std::int32_t> body;

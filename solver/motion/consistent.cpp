@@ -12,7 +12,9 @@ namespace {
 
 enum : int { t_xx, t_yx, t_xy, t_yy, pressure, v_x, v_y };  // lanes of a record
 
-Mat2 stress_lanes(const Record& r) { return (Mat2() << r.q[t_xx], r.q[t_xy], r.q[t_yx], r.q[t_yy]).finished(); }
+Mat2 stress_lanes(const Record& r) {
+  return (Mat2() << r.q[t_xx], r.q[t_xy], r.q[t_yx], r.q[t_yy]).finished();
+}
 
 void set_stress_lanes(Record& r, const Mat2& t) {
   r.q[t_xx] = t(0, 0), r.q[t_yx] = t(1, 0), r.q[t_xy] = t(0, 1), r.q[t_yy] = t(1, 1);
@@ -42,7 +44,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
     : model_(model),
       formulation_(formulation),
       kernel_(model.smoothing_length),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) * model.smoothing_length) {}
+      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) *
+                             model.smoothing_length) {}
 
 void ConsistentDynamics::prepare() {
   const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
@@ -108,8 +111,8 @@ void ConsistentDynamics::make_gradients() {
   }
 }
 
-/// Gradients at the particles next to bearing walls that see only the soil (and its mirror images at other walls), to
-/// carry the stress on linearly behind the wall.
+/// Gradients at the particles next to bearing walls that see only the soil (and its mirror images at other
+/// walls), to carry the stress on linearly behind the wall.
 void ConsistentDynamics::make_one_sided_gradients() {
   const std::size_t n = model_.particles.size();
   std::vector<bool> stems_from_extrapolated(images_.size());
@@ -186,13 +189,13 @@ Mat2 ConsistentDynamics::deformation_rate(std::size_t a) const {
   }
   if (k < last) x += velocity(k) * gradient[k].x, y += velocity(k) * gradient[k].y;
   x += x2, y += y2;
-  const Mat2 sum = (Mat2() << x[0], y[0], x[1], y[1]).finished() -
-                   velocities_[a] * gradient_sum_[a].transpose();
+  const Mat2 sum =
+      (Mat2() << x[0], y[0], x[1], y[1]).finished() - velocities_[a] * gradient_sum_[a].transpose();
   return sum * correction_[a].transpose();
 }
 
-/// Stress, deformation and records of particles first to last - 1 after a step dt with the present velocities.
-/// Returns the largest |F - I| and the largest speed squared among them.
+/// Stress, deformation and records of particles first to last - 1 after a step dt with the present
+/// velocities. Returns the largest |F - I| and the largest speed squared among them.
 ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, std::size_t last, double dt) {
   Particles& p = model_.particles;
   MaterialBlock block;
@@ -206,7 +209,8 @@ ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, 
     block.rate[2][i] = rate(1, 0), block.rate[3][i] = rate(1, 1);
     block.deformation[0][i] = f(0, 0), block.deformation[1][i] = f(0, 1);
     block.deformation[2][i] = f(1, 0), block.deformation[3][i] = f(1, 1);
-    block.stress[0][i] = s.xx, block.stress[1][i] = s.yy, block.stress[2][i] = s.zz, block.stress[3][i] = s.xy;
+    block.stress[0][i] = s.xx, block.stress[1][i] = s.yy, block.stress[2][i] = s.zz,
+    block.stress[3][i] = s.xy;
     block.shear_modulus[i] = soil.shear_modulus, block.bulk_modulus[i] = soil.bulk_modulus;
     block.no_tension[i] = soil.no_tension ? 1.0 : 0.0;
     block.reference_density[i] = reference_density_[a];
@@ -229,8 +233,8 @@ ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, 
     q[t_yx] = piola(1, 0) * l(0, 0) + piola(1, 1) * l(1, 0) - mu * block.rate[2][i];
     q[t_yy] = piola(1, 0) * l(0, 1) + piola(1, 1) * l(1, 1) - mu * block.rate[3][i];
     q[v_x] = velocities_[a].x(), q[v_y] = velocities_[a].y();
-    largest.strain = std::max({largest.strain, std::abs(f(0, 0) - 1), std::abs(f(0, 1)), std::abs(f(1, 0)),
-                               std::abs(f(1, 1) - 1)});
+    largest.strain = std::max(
+        {largest.strain, std::abs(f(0, 0) - 1), std::abs(f(0, 1)), std::abs(f(1, 0)), std::abs(f(1, 1) - 1)});
     largest.speed_squared = std::max(largest.speed_squared, velocities_[a].squaredNorm());
   }
   return largest;
@@ -238,7 +242,8 @@ ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, 
 
 /// Carries all particles over a step dt with the velocities of velocities_; dt = 0 only writes the records.
 ConsistentDynamics::Largest ConsistentDynamics::strain_all(double dt) {
-  const auto blocks = static_cast<std::int64_t>((model_.particles.size() + MaterialBlock::size - 1) / MaterialBlock::size);
+  const auto blocks =
+      static_cast<std::int64_t>((model_.particles.size() + MaterialBlock::size - 1) / MaterialBlock::size);
   double strain = 0, speed_squared = 0;
 #pragma omp parallel for schedule(static) reduction(max : strain, speed_squared)
   for (std::int64_t block = 0; block < blocks; ++block) {
@@ -254,7 +259,8 @@ void ConsistentDynamics::fill_image_velocities() {
   const auto& v = model_.particles.velocity;
   std::copy(v.begin(), v.end(), velocities_.begin());
   for (std::size_t i = 0; i < images_.size(); ++i)
-    velocities_[v.size() + i] = image_of_velocity(model_.walls[images_[i].wall], velocities_[images_[i].parent]);
+    velocities_[v.size() + i] =
+        image_of_velocity(model_.walls[images_[i].wall], velocities_[images_[i].parent]);
 }
 
 void ConsistentDynamics::update_pressure_lanes() {
@@ -292,7 +298,8 @@ void ConsistentDynamics::extrapolate_stress() {
     if (wall.kind == BoundaryKind::roller) {
       const Mat2 across = wall.normal * wall.normal.transpose(), along = Mat2::Identity() - across;
       const Mat2 mirrored = wall.reflection() * root * wall.reflection();
-      stress = across * stress * across + along * stress * along + across * mirrored * along + along * mirrored * across;
+      stress = across * stress * across + along * stress * along + across * mirrored * along +
+               along * mirrored * across;
     }
     piola_[n + i] = stress;
   }
@@ -313,8 +320,8 @@ void ConsistentDynamics::fill_image_records() {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
     const Mat2 viscous = stress_lanes(records_[parent]) - piola_[parent] * correction_[parent];
     Record& record = records_[n + i];
-    set_stress_lanes(record,
-                     piola_[n + i] * correction_[n + i] + image_of_rate(model_.walls[images_[i].wall], viscous));
+    set_stress_lanes(
+        record, piola_[n + i] * correction_[n + i] + image_of_rate(model_.walls[images_[i].wall], viscous));
     record.q[v_x] = velocities_[n + i].x();
     record.q[v_y] = velocities_[n + i].y();
   }
@@ -345,12 +352,15 @@ void ConsistentDynamics::accelerate_range(std::size_t first, std::size_t last, V
     const Vec2& s = gradient_sum_[a];
     const Vec2 stress_force(x[t_xx] + y[t_xy] + own[t_xx] * s.x() + own[t_xy] * s.y(),
                             x[t_yx] + y[t_yy] + own[t_yx] * s.x() + own[t_yy] * s.y());
-    const Vec2 viscous_force = 2 * mu * Vec2(w[v_x] - own[v_x] * weight_sum_[a], w[v_y] - own[v_y] * weight_sum_[a]);
-    const Vec2 pressure_sum(x[pressure] - own[pressure] * s.x(), y[pressure] - own[pressure] * s.y());  // eq. (22)
+    const Vec2 viscous_force =
+        2 * mu * Vec2(w[v_x] - own[v_x] * weight_sum_[a], w[v_y] - own[v_y] * weight_sum_[a]);
+    const Vec2 pressure_sum(x[pressure] - own[pressure] * s.x(),
+                            y[pressure] - own[pressure] * s.y());  // eq. (22)
     const Mat2& f = deformation_[a];
     const Vec2 corrected = correction_[a] * pressure_sum;
-    const Vec2 pressure_force(f(1, 1) * corrected.x() - f(1, 0) * corrected.y(),  // J F^-T, the cofactors of F
-                              f(0, 0) * corrected.y() - f(0, 1) * corrected.x());
+    const Vec2 pressure_force(
+        f(1, 1) * corrected.x() - f(1, 0) * corrected.y(),  // J F^-T, the cofactors of F
+        f(0, 0) * corrected.y() - f(0, 1) * corrected.x());
     out[a] = (stress_force + viscous_force + pressure_force) / reference_density_[a] + model_.gravity;
   }
 }

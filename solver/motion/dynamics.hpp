@@ -9,8 +9,8 @@
 
 namespace porosph {
 
-/// Spatial discretisation: from the model's state to accelerations and to strain. It refers to the model that it was
-/// made for, whose particle count must not change.
+/// Spatial discretisation: from the model's state to accelerations and to strain. It refers to the model that
+/// it was made for, whose particle count must not change.
 class Dynamics {
  public:
   virtual ~Dynamics() = default;

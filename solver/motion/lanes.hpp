@@ -18,7 +18,8 @@ struct alignas(64) Record {
   Lanes q{};
 };
 
-/// A pair's stored kernel gradient, V_b grad_a W_ab (corrected or not, as the motion equation needs it) [1/m].
+/// A pair's stored kernel gradient, V_b grad_a W_ab (corrected or not, as the motion equation needs it)
+/// [1/m].
 struct PairGradient {
   double x, y;
 };

@@ -4,7 +4,8 @@
 namespace porosph {
 
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model) {
-  if (formulation.motion == Motion::consistent) return std::make_unique<ConsistentDynamics>(formulation, model);
+  if (formulation.motion == Motion::consistent)
+    return std::make_unique<ConsistentDynamics>(formulation, model);
   return std::make_unique<PaperDynamics>(formulation, model);
 }
 

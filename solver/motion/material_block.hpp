@@ -9,18 +9,19 @@
 
 namespace porosph {
 
-/// What the consistent form needs of some particles, one array per number. Unused places hold the harmless defaults.
+/// What the consistent form needs of some particles, one array per number. Unused places hold the harmless
+/// defaults.
 struct MaterialBlock {
   static constexpr std::size_t size = 32;
   using Row = double[size];
 
-  alignas(64) Row rate[4];        ///< dF/dt: xx, xy, yx, yy [1/s]
-  alignas(64) Row deformation[4]; ///< F
-  alignas(64) Row stress[4];      ///< effective: xx, yy, zz, xy [Pa]
+  alignas(64) Row rate[4];         ///< dF/dt: xx, xy, yx, yy [1/s]
+  alignas(64) Row deformation[4];  ///< F
+  alignas(64) Row stress[4];       ///< effective: xx, yy, zz, xy [Pa]
   alignas(64) Row shear_modulus, bulk_modulus, reference_density;
-  alignas(64) Row no_tension;     ///< 1 where mean tension is cut off, else 0
-  alignas(64) Row density;        ///< out [kg/m3]
-  alignas(64) Row piola[4];       ///< out: P = J (sigma' + q I) F^-T, q the bulk viscous stress [Pa]
+  alignas(64) Row no_tension;  ///< 1 where mean tension is cut off, else 0
+  alignas(64) Row density;     ///< out [kg/m3]
+  alignas(64) Row piola[4];    ///< out: P = J (sigma' + q I) F^-T, q the bulk viscous stress [Pa]
 
   MaterialBlock() {
     for (std::size_t i = 0; i < size; ++i) {
@@ -38,7 +39,8 @@ struct MaterialBlock {
       const double half = 0.5 * dt;
       const double mxx = deformation[0][i] + half * rxx, mxy = deformation[1][i] + half * rxy;
       const double myx = deformation[2][i] + half * ryx, myy = deformation[3][i] + half * ryy;
-      const double scale = 1 / (mxx * myy - mxy * myx);  // mid-step dv/dx = dF/dt F^-1 (Hughes and Winget 1980)
+      const double scale =
+          1 / (mxx * myy - mxy * myx);  // mid-step dv/dx = dF/dt F^-1 (Hughes and Winget 1980)
       const Gradient gradient((rxx * myy - rxy * myx) * scale, (rxy * mxx - rxx * mxy) * scale,
                               (ryx * myy - ryy * myx) * scale, (ryy * mxx - ryx * mxy) * scale);
       const LinearElastic soil{shear_modulus[i], bulk_modulus[i], no_tension[i] != 0};

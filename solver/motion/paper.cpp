@@ -56,7 +56,8 @@ void PaperDynamics::make_virtual_particles() {
 void PaperDynamics::prepare() {
   const auto& position = model_.particles.position;
   double moved = searched_.empty() ? never : 0;
-  for (std::size_t a = 0; a < searched_.size(); ++a) moved = std::max(moved, (position[a] - searched_[a]).squaredNorm());
+  for (std::size_t a = 0; a < searched_.size(); ++a)
+    moved = std::max(moved, (position[a] - searched_[a]).squaredNorm());
   if (!(moved < 0.25 * skin_ * skin_)) search();
   move_ghosts();
   make_gradients();
@@ -146,7 +147,8 @@ void PaperDynamics::make_gradients_of(std::size_t a) {
   double total_x = 0, total_y = 0;
 #pragma omp simd reduction(+ : total_x, total_y)
   for (std::int64_t k = first; k < last; ++k) {
-    const double gx = cxx * gradient[k].x + cxy * gradient[k].y, gy = cyx * gradient[k].x + cyy * gradient[k].y;
+    const double gx = cxx * gradient[k].x + cxy * gradient[k].y,
+                 gy = cyx * gradient[k].x + cyy * gradient[k].y;
     gradient[k].x = gx, gradient[k].y = gy;
     total_x += gx, total_y += gy;
   }
@@ -233,8 +235,8 @@ Vec2 PaperDynamics::stress_and_pressure(std::size_t a) const {
   const WallSums& walls = wall_sums_[a];
   const Vec2 others(sums.x[s_xx] + sums.y[s_xy], sums.x[s_xy] + sums.y[s_yy]);
   const Vec2 all = gradient_sum_[a] + walls.gradient;
-  const Vec2 pressure_sum =
-      Vec2(sums.x[pressure], sums.y[pressure]) + walls.pressure + form_.own_pressure * p.pore_pressure[a] * all;
+  const Vec2 pressure_sum = Vec2(sums.x[pressure], sums.y[pressure]) + walls.pressure +
+                            form_.own_pressure * p.pore_pressure[a] * all;
 
   if (!form_.stress_over_rho_squared)
     return (others + stress * (gradient_sum_[a] + 2 * walls.gradient) + pressure_sum) / rho;
@@ -258,7 +260,8 @@ Vec2 PaperDynamics::viscous(std::size_t a) const {
     const std::int64_t b = index[k];
     const double dx = ax - x[2 * b], dy = ay - x[2 * b + 1];
     const double vx = (avx - v[2 * b]) * dx + (avy - v[2 * b + 1]) * dy;
-    const double pi = viscosity.pair(vx, dx * dx + dy * dy, h, 0.5 * (c_a + sound[b]), 0.5 * (rho_a + density[b]));
+    const double pi =
+        viscosity.pair(vx, dx * dx + dy * dy, h, 0.5 * (c_a + sound[b]), 0.5 * (rho_a + density[b]));
     force_x -= density[b] * pi * gradient[k].x;
     force_y -= density[b] * pi * gradient[k].y;
   }
@@ -287,7 +290,8 @@ Vec2 PaperDynamics::stabilisation_at_walls(std::size_t a) const {
   const double rho = p.density[a], at_spacing = kernel_.value(model_.spacing);
   Vec2 force = Vec2::Zero();
   for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
-    const Vec2 x = points_[a] - virtual_points_[wall_neighbours_.index[k]], v = stickiness_[k] * velocities_[a];
+    const Vec2 x = points_[a] - virtual_points_[wall_neighbours_.index[k]],
+               v = stickiness_[k] * velocities_[a];
     const Vec2 g(wall_gradient_[k].x, wall_gradient_[k].y);
     force -= rho * viscosity_.pair(v.dot(x), x.squaredNorm(), kernel_.h, sound_[a], rho) * g;
     if (!any_tension_) continue;

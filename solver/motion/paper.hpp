@@ -12,8 +12,8 @@
 
 namespace porosph {
 
-/// Kernel gradients are made anew in every step. Rollers are mirrored ghosts; fixed walls are rows of virtual particles
-/// that stay where they are, take the stress of the particle that looks at them, and the velocity
+/// Kernel gradients are made anew in every step. Rollers are mirrored ghosts; fixed walls are rows of virtual
+/// particles that stay where they are, take the stress of the particle that looks at them, and the velocity
 /// -min(d_b / d_a, 1/2) v_a that makes it stick to the wall (Morris et al. 1997; Bui et al. 2008).
 class PaperDynamics final : public Dynamics {
  public:
@@ -30,8 +30,8 @@ class PaperDynamics final : public Dynamics {
   void move_ghosts();
   void make_gradients();
   void make_gradients_of(std::size_t a);
-  Mat2 raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points, const double* volumes,
-                     PairGradient* gradient) const;
+  Mat2 raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points,
+                     const double* volumes, PairGradient* gradient) const;
   void fill_ghost_velocities();
   void fill_records();
   void fill_artificial_stress();
@@ -55,11 +55,11 @@ class PaperDynamics final : public Dynamics {
   std::vector<std::int32_t> virtual_wall_;
   std::vector<double> virtual_pressure_;
 
-  std::vector<Vec2> points_, velocities_;  ///< of particles, then ghosts
+  std::vector<Vec2> points_, velocities_;         ///< of particles, then ghosts
   std::vector<double> volume_, density_, sound_;  ///< of particles, then ghosts
   std::vector<Image> ghosts_;
   std::vector<std::int32_t> ghost_root_;  ///< the particle that each ghost stems from
-  std::vector<Vec2> searched_;  ///< positions at the last search
+  std::vector<Vec2> searched_;            ///< positions at the last search
   NeighbourList neighbours_, wall_neighbours_;
   std::vector<PairGradient> gradient_, wall_gradient_;  ///< corrected
   std::vector<double> stickiness_;                      ///< per wall pair: 1 + min(d_b / d_a, 1/2)

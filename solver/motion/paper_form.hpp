@@ -1,6 +1,7 @@
 // The paper's motion equations: how stress and pore pressure of a pair enter.
 //
-// With G_ab = V_b L_a grad_a W_ab (eq. 9; V_b = m_b / rho_b) all of them are sums of a neighbour's values times G_ab:
+// With G_ab = V_b L_a grad_a W_ab (eq. 9; V_b = m_b / rho_b) all of them are sums of a neighbour's values
+// times G_ab:
 //
 //   eqs. (15), (17), (24):  1/rho_a sum (sigma'_a + sigma'_b) G_ab
 //   eqs. (14), (25):        sum rho_b (sigma'_a / rho_a^2 + sigma'_b / rho_b^2) G_ab

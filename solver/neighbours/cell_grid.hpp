@@ -11,7 +11,8 @@
 
 namespace porosph {
 
-/// Points sorted into square cells of at least the given size, so that all within that distance lie in adjacent cells.
+/// Points sorted into square cells of at least the given size, so that all within that distance lie in
+/// adjacent cells.
 template <int dim>
 class CellGrid {
  public:
@@ -34,7 +35,8 @@ class CellGrid {
     sort_points(total);
   }
 
-  /// Calls visit(b) for every point b in the cells around `centre`: all within the cell size, and some beyond it.
+  /// Calls visit(b) for every point b in the cells around `centre`: all within the cell size, and some beyond
+  /// it.
   template <class Visit>
   void around(const Vec& centre, Visit&& visit) const {
     std::array<std::int64_t, dim> low, high;

@@ -7,8 +7,10 @@
 namespace porosph {
 namespace {
 
-/// Two passes, count then fill, so that particles are searched in parallel and the result does not depend on threads.
-NeighbourList search(std::span<const Vec2> centres, std::span<const Vec2> points, double radius, bool skip_self) {
+/// Two passes, count then fill, so that particles are searched in parallel and the result does not depend on
+/// threads.
+NeighbourList search(std::span<const Vec2> centres, std::span<const Vec2> points, double radius,
+                     bool skip_self) {
   const CellGrid<2> grid(points, radius);
   const auto count = static_cast<std::int64_t>(centres.size());
   const auto visit = [&](std::int64_t a, auto&& use) {

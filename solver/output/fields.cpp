@@ -56,7 +56,9 @@ const Particles& particles(Simulation& s) { return s.model().particles; }
 const std::vector<Field>& registry() {
   static const std::vector<Field> fields = {
       {{"Displacement", "m", "from the position at t = 0", vector_components},
-       [](Simulation& s) { return vectors(particles(s), [&](auto i) { return particles(s).displacement(i); }); }},
+       [](Simulation& s) {
+         return vectors(particles(s), [&](auto i) { return particles(s).displacement(i); });
+       }},
       {{"Velocity", "m/s", "at the frame's time", vector_components},
        [](Simulation& s) {
          const std::vector<Vec2> v = s.velocities();
@@ -65,7 +67,9 @@ const std::vector<Field>& registry() {
       {{"EffectiveStress", "Pa", "sigma', tension positive", tensor_components},
        [](Simulation& s) { return tensors(particles(s), [&](auto i) { return particles(s).stress[i]; }); }},
       {{"TotalStress", "Pa", "sigma = sigma' + p_w I (eq. 12)", tensor_components},
-       [](Simulation& s) { return tensors(particles(s), [&](auto i) { return total_stress(particles(s), i); }); }},
+       [](Simulation& s) {
+         return tensors(particles(s), [&](auto i) { return total_stress(particles(s), i); });
+       }},
       {{"PorePressure", "Pa", "p_w, negative in compression", {}},
        [](Simulation& s) { return particles(s).pore_pressure; }},
       {{"Density", "kg/m3", "mass of soil and pore water per volume", {}},

@@ -17,7 +17,8 @@ struct FieldDescription {
 /// All fields, in the order of the documents.
 const std::vector<FieldDescription>& known_fields();
 
-/// The named fields of the present instant; nothing else is computed. Throws std::invalid_argument for an unknown name.
+/// The named fields of the present instant; nothing else is computed. Throws std::invalid_argument for an
+/// unknown name.
 Frame make_frame(Simulation& simulation, const std::vector<std::string>& fields);
 
 }  // namespace porosph

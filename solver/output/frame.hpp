@@ -52,11 +52,12 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   double unbalanced_force_ratio = 0;
   struct Probe {
-    double x = 0, y = 0;                    ///< where it was at t = 0 [m]
+    double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI
   };
   std::map<std::string, Probe> probes;
-  std::map<std::string, ErrorNorms> errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  std::map<std::string, ErrorNorms>
+      errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
 };
 

@@ -5,7 +5,8 @@
 
 namespace porosph {
 
-/// v^{n+1/2} from v^{n-1/2}, the acceleration a^n and the damping c_d [1/s], which acts on their mean (second order).
+/// v^{n+1/2} from v^{n-1/2}, the acceleration a^n and the damping c_d [1/s], which acts on their mean (second
+/// order).
 inline Vec2 kick(const Vec2& velocity, const Vec2& acceleration, double damping, double dt) {
   const double half = 0.5 * damping * dt;
   return ((1 - half) * velocity + dt * acceleration) / (1 + half);

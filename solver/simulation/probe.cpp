@@ -10,8 +10,8 @@
 
 namespace porosph {
 
-std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& near, const std::vector<double>& volumes,
-                                   double smoothing_length) {
+std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& near,
+                                   const std::vector<double>& volumes, double smoothing_length) {
   const CubicSpline<2> kernel(smoothing_length);
   const auto basis = [&](const Vec2& p) {
     const Vec2 d = (p - here) / smoothing_length;
@@ -26,8 +26,9 @@ std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& ne
     moments += weights[i] * basis(near[i]) * basis(near[i]).transpose();
   }
   const bool spans_the_plane = moments.determinant() > 1e-6 * sum * sum * sum;
-  const Eigen::Vector3d first = spans_the_plane ? Eigen::Vector3d(moments.ldlt().solve(Eigen::Vector3d::UnitX()))
-                                                : Eigen::Vector3d(1 / sum, 0, 0);
+  const Eigen::Vector3d first = spans_the_plane
+                                    ? Eigen::Vector3d(moments.ldlt().solve(Eigen::Vector3d::UnitX()))
+                                    : Eigen::Vector3d(1 / sum, 0, 0);
   for (std::size_t i = 0; i < near.size(); ++i) weights[i] *= first.dot(basis(near[i]));
   return weights;
 }
@@ -37,8 +38,8 @@ Probe::Probe(const ProbeCase& probe, const Model& model) : name_(probe.name), st
   const std::vector<Vec2> here = {start_};
   particles_ = find_neighbours(here, p.position, 2 * model.smoothing_length).index;
   if (particles_.empty())
-    throw std::runtime_error(fmt::format("probe '{}' at ({}, {}) has no particle within {} m", name_, start_.x(),
-                                         start_.y(), 2 * model.smoothing_length));
+    throw std::runtime_error(fmt::format("probe '{}' at ({}, {}) has no particle within {} m", name_,
+                                         start_.x(), start_.y(), 2 * model.smoothing_length));
   std::vector<Vec2> near;
   std::vector<double> volumes;
   for (std::int32_t b : particles_) near.push_back(p.position[b]), volumes.push_back(p.volume(b));

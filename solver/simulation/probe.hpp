@@ -10,8 +10,8 @@ namespace porosph {
 
 /// What a probe reads, in the order of probe_quantities().
 struct Reading {
-  Stress stress;             ///< effective [Pa]
-  double pore_pressure = 0;  ///< [Pa]
+  Stress stress;                     ///< effective [Pa]
+  double pore_pressure = 0;          ///< [Pa]
   Vec2 displacement = Vec2::Zero();  ///< [m]
 
   std::vector<double> values() const {
@@ -20,14 +20,14 @@ struct Reading {
 };
 
 inline const std::vector<std::string>& probe_quantities() {
-  static const std::vector<std::string> names = {"EffectiveStress_XX", "EffectiveStress_YY", "EffectiveStress_ZZ",
-                                                 "EffectiveStress_XY", "PorePressure",       "Displacement_X",
-                                                 "Displacement_Y"};
+  static const std::vector<std::string> names = {
+      "EffectiveStress_XX", "EffectiveStress_YY", "EffectiveStress_ZZ", "EffectiveStress_XY",
+      "PorePressure",       "Displacement_X",     "Displacement_Y"};
   return names;
 }
 
-/// Weights over the particles around the probe at t = 0, exact for linear fields (moving least squares); they stay with
-/// those particles.
+/// Weights over the particles around the probe at t = 0, exact for linear fields (moving least squares); they
+/// stay with those particles.
 class Probe {
  public:
   /// Throws std::runtime_error where no particle is within the kernel's support.
@@ -44,9 +44,9 @@ class Probe {
   std::vector<double> weights_;
 };
 
-/// Weights of the particles `near` that reproduce linear fields at `here`; the plain kernel mean where they do not span
-/// the plane.
-std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& near, const std::vector<double>& volumes,
-                                   double smoothing_length);
+/// Weights of the particles `near` that reproduce linear fields at `here`; the plain kernel mean where they
+/// do not span the plane.
+std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& near,
+                                   const std::vector<double>& volumes, double smoothing_length);
 
 }  // namespace porosph

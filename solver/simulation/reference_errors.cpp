@@ -58,18 +58,23 @@ std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation)
   const Case& scene = simulation.scene();
   if (scene.reference == Reference::none) return {};
   const auto [column, bottom] = reference_column(scene);
-  const FiniteStrainColumn exact = scene.reference == Reference::conventional_column ? conventional_column(column)
-                                                                                     : FiniteStrainColumn(column);
+  const FiniteStrainColumn exact = scene.reference == Reference::conventional_column
+                                       ? conventional_column(column)
+                                       : FiniteStrainColumn(column);
   const Particles& p = simulation.model().particles;
   const auto height = [&](std::size_t i) { return p.start[i].y() - bottom; };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };
   return {
-      {"EffectiveStress_XX", norms(p, [&](auto i) { return p.stress[i].xx; }, lateral)},
-      {"EffectiveStress_YY",
-       norms(p, [&](auto i) { return p.stress[i].yy; }, [&](auto i) { return exact.vertical_stress(height(i)); })},
-      {"EffectiveStress_ZZ", norms(p, [&](auto i) { return p.stress[i].zz; }, lateral)},
-      {"Displacement_Y", norms(p, [&](auto i) { return p.displacement(i).y(); },
-                               [&](auto i) { return exact.displacement(height(i)); })},
+      {"EffectiveStress_XX", norms(
+                                 p, [&](auto i) { return p.stress[i].xx; }, lateral)},
+      {"EffectiveStress_YY", norms(
+                                 p, [&](auto i) { return p.stress[i].yy; },
+                                 [&](auto i) { return exact.vertical_stress(height(i)); })},
+      {"EffectiveStress_ZZ", norms(
+                                 p, [&](auto i) { return p.stress[i].zz; }, lateral)},
+      {"Displacement_Y", norms(
+                             p, [&](auto i) { return p.displacement(i).y(); },
+                             [&](auto i) { return exact.displacement(height(i)); })},
   };
 }
 

@@ -18,8 +18,9 @@ struct ReferenceColumn {
 /// The column that a case with a reference describes. Throws std::runtime_error where it has several soils.
 ReferenceColumn reference_column(const Case& scene);
 
-/// Field (EffectiveStress_YY, ..., Displacement_Y) -> norms over the particles, each at its height at t = 0; empty where
-/// the case names no reference. Throws std::runtime_error where the case is not one that the reference describes.
+/// Field (EffectiveStress_YY, ..., Displacement_Y) -> norms over the particles, each at its height at t = 0;
+/// empty where the case names no reference. Throws std::runtime_error where the case is not one that the
+/// reference describes.
 std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation);
 
 }  // namespace porosph

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int64_t steps_between_balances = 10, steps_between_separation_checks = 200;
 
-/// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave crosses the
-/// body to and fro.
+/// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
+/// crosses the body to and fro.
 class Equilibrium {
  public:
   explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
@@ -86,7 +86,8 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     if (watch.progress) watch.progress(s);
     if (settled) {
       outcome.status = RunStatus::equilibrium;
-      outcome.message = fmt::format("unbalanced force ratio below {:g}", s.scene().stop.unbalanced_force_ratio);
+      outcome.message =
+          fmt::format("unbalanced force ratio below {:g}", s.scene().stop.unbalanced_force_ratio);
     } else if (watch.interrupted && watch.interrupted()) {
       outcome.status = RunStatus::interrupted;
       outcome.message = fmt::format("interrupted at {:.6g} s", s.time());

@@ -8,8 +8,8 @@
 
 namespace porosph {
 
-/// Steps at which something is due every `interval` seconds: the nearest step to each multiple; every step where the
-/// interval is shorter than one. The first and the last step are always due.
+/// Steps at which something is due every `interval` seconds: the nearest step to each multiple; every step
+/// where the interval is shorter than one. The first and the last step are always due.
 class Schedule {
  public:
   Schedule(double interval, double time_step, std::int64_t last_step)
@@ -23,10 +23,10 @@ class Schedule {
 
 /// What the caller does while a run goes on. Empty functions are not called.
 struct RunWatch {
-  std::function<void(Simulation&)> frame;                        ///< a frame is due (output.interval)
-  std::function<void(const std::vector<double>& row)> history;   ///< a row of history_columns()
-  std::function<void(const Simulation&)> progress;               ///< after every step
-  std::function<bool()> interrupted;                             ///< true ends the run after this step
+  std::function<void(Simulation&)> frame;                       ///< a frame is due (output.interval)
+  std::function<void(const std::vector<double>& row)> history;  ///< a row of history_columns()
+  std::function<void(const Simulation&)> progress;              ///< after every step
+  std::function<bool()> interrupted;                            ///< true ends the run after this step
 };
 
 struct RunOutcome {
@@ -35,8 +35,8 @@ struct RunOutcome {
   double stepping_seconds = 0;  ///< wall time without what the watch did [s]
 };
 
-/// Advances to the end. The last frame and history row are of the state at which the run ended; a state that has broken
-/// down is not shown.
+/// Advances to the end. The last frame and history row are of the state at which the run ended; a state that
+/// has broken down is not shown.
 RunOutcome run(Simulation& simulation, const RunWatch& watch);
 
 /// "time", then "<probe>.<quantity>".

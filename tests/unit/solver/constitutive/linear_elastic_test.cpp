@@ -72,13 +72,11 @@ TEST_CASE("a rigid rotation turns the stress and nothing else", "[constitutive]"
   CHECK(now.zz == old.zz);
 }
 
-TEST_CASE("a soil without tension keeps its mean effective stress at or below zero", "[constitutive]") {
+TEST_CASE("a soil without tension has no stress where the mean would be tensile", "[constitutive]") {
   const LinearElastic loose = LinearElastic::from_young(youngs_modulus, poissons_ratio, true);
   const Stress pulled = loose.update({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3);
-  CHECK(pulled.mean() == Approx(0).margin(1e-9));
-  CHECK(pulled.xx - pulled.yy == Approx(6e4));
-  CHECK(pulled.zz == Approx(0).margin(1e-9));
-  CHECK(pulled.xy == 3e4);
+  CHECK(pulled.in_plane().isZero(0));
+  CHECK(pulled.zz == 0);
 
   const Stress pressed = loose.update({-5e4, 1e4, -2e4, 3e4}, Mat2::Zero(), 1e-3);
   CHECK(pressed.xx == -5e4);
