@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -30,8 +31,15 @@ std::string quoted(const std::string& setting) {
   return plain ? setting : '"' + setting + '"';
 }
 
+/// From the project's root; a shipped case may serve as it is.
+std::string case_file(const std::string& name) {
+  const std::string shipped = fmt::format("cases/{}.toml", name);
+  if (std::filesystem::exists(std::filesystem::path(POROSPH_SOURCE_DIR) / shipped)) return shipped;
+  return fmt::format("cases/verification/{}.toml", name);
+}
+
 std::string command(const Measurement& m) {
-  std::string text = fmt::format("porosph run cases/verification/{}.toml", m.name);
+  std::string text = "porosph run " + case_file(m.name);
   for (const std::string& setting : m.settings) text += " --set " + quoted(setting);
   return text;
 }
@@ -52,7 +60,7 @@ const char* introduction =
     "or motions that a case file cannot; their commands show the scene.\n";
 
 void write_section(std::ostream& out, const std::string& name) {
-  out << fmt::format("\n## {}\n\n`cases/verification/{}.toml`\n\n", scene(name).title, name)
+  out << fmt::format("\n## {}\n\n`{}`\n\n", scene(name).title, case_file(name))
       << "| Quantity | Compared with | Resolution | Error | Allowed | Order | Run it |\n"
       << "|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows())
@@ -84,7 +92,7 @@ CATCH_REGISTER_LISTENER(TableWriter)
 }  // namespace
 
 Case scene(const std::string& name, const Settings& settings) {
-  return read_case(fmt::format("{}/cases/verification/{}.toml", POROSPH_SOURCE_DIR, name), settings);
+  return read_case(std::filesystem::path(POROSPH_SOURCE_DIR) / case_file(name), settings);
 }
 
 void run_to_end(Simulation& simulation, const RunWatch& watch) {

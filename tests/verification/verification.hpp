@@ -11,7 +11,7 @@ namespace porosph::verification {
 
 using Settings = std::vector<std::string>;  ///< overrides, "key=value"
 
-/// cases/verification/<name>.toml.
+/// cases/<name>.toml or cases/verification/<name>.toml.
 Case scene(const std::string& name, const Settings& settings = {});
 
 /// Runs to the end, which must not be an instability.
