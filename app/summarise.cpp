@@ -58,13 +58,14 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.peak_memory_bytes = peak_memory();
   summary.unbalanced_force_ratio =
       s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
+  summary.energy_growth = outcome.energy_growth;
   for (const Probe& probe : s.probes()) {
     Summary::Probe& p = summary.probes[probe.name()];
     p.x = probe.start().x(), p.y = probe.start().y();
     const std::vector<double> values = probe.read(s.model().particles).values();
     for (std::size_t i = 0; i < values.size(); ++i) p.values[probe_quantities()[i]] = values[i];
   }
-  summary.errors = reference_errors(s);
+  if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
   return summary;
 }
@@ -76,6 +77,7 @@ std::string tell(const Summary& s) {
   if (!s.message.empty()) text += ": " + s.message;
   text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n",
                       s.particles, s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);
+  if (!std::isfinite(s.energy_growth)) return text;  // broken down: there is no state to tell of
   if (std::isfinite(s.unbalanced_force_ratio))
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
   for (const auto& [name, probe] : s.probes)

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
+constexpr double tolerable_energy_growth = 0.01;  ///< of the energy at work
 constexpr double usual_rest = 1e-3;  ///< unbalanced force ratio under which a state counts as at rest
 
 void require_reportable(const std::vector<FinishedRun>& runs) {
@@ -69,6 +70,11 @@ std::vector<std::string> warnings_of(const LoadedRun& r) {
     warnings.push_back(fmt::format(
         "{} is not in equilibrium: its unbalanced forces are {} of the weights (at rest: below {:g})",
         r.label, number(s.unbalanced_force_ratio, "{:.2g}"), usual_rest));
+  if (s.energy_growth > tolerable_energy_growth)
+    warnings.push_back(
+        fmt::format("{} gained energy, {} of what moves and strains at its end: its motion equation does "
+                    "not conserve it, and without damping it may become unstable",
+                    r.label, number(100 * s.energy_growth, "{:.2g} %")));
   return warnings;
 }
 

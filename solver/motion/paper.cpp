@@ -318,21 +318,8 @@ void PaperDynamics::accelerations(std::span<Vec2> out) {
 
 /// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
 Mat2 PaperDynamics::velocity_gradient(std::size_t a) const {
-  const double* velocities = velocities_[0].data();
-  const auto velocity = [&](std::int64_t k) { return load_pair(velocities + 2 * neighbours_.index[k]); };
-  const PairGradient* gradient = gradient_.data();
-  Pair x{}, y{}, x2{}, y2{};  // sums of v G_x and of v G_y, two of each
-  const std::int64_t last = neighbours_.begin[a + 1];
-  std::int64_t k = neighbours_.begin[a];
-  for (; k + 1 < last; k += 2) {
-    const Pair v = velocity(k), v2 = velocity(k + 1);
-    x += v * gradient[k].x, x2 += v2 * gradient[k + 1].x;
-    y += v * gradient[k].y, y2 += v2 * gradient[k + 1].y;
-  }
-  if (k < last) x += velocity(k) * gradient[k].x, y += velocity(k) * gradient[k].y;
-  x += x2, y += y2;
-  const Vec2 own = gradient_sum_[a] + wall_sums_[a].velocity;
-  return (Mat2() << x[0], y[0], x[1], y[1]).finished() - velocities_[a] * own.transpose();
+  const Vec2 own = gradient_sum_[a] + wall_sums_[a].velocity;  // what sticks to a wall moves against v_a
+  return velocity_sum(neighbours_, gradient_.data(), velocities_.data(), own, a);
 }
 
 void PaperDynamics::velocity_gradients(std::span<Mat2> out) {

@@ -5,7 +5,7 @@
 
 #include "solver/kernel/cubic_spline.hpp"
 #include "solver/motion/dynamics.hpp"
-#include "solver/motion/lanes.hpp"
+#include "solver/motion/pair_sums.hpp"
 #include "solver/motion/paper_form.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "solver/stabilisation/artificial_viscosity.hpp"

@@ -51,6 +51,8 @@ struct Summary {
   double wall_seconds = 0, stepping_seconds = 0, particle_steps_per_second = 0;
   std::int64_t peak_memory_bytes = 0;
   double unbalanced_force_ratio = 0;
+  double energy_growth =
+      0;  ///< total energy gained since the start over what moves and strains at the end [-]
   struct Probe {
     double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI

@@ -39,6 +39,12 @@ std::vector<double> history_row(const Simulation& s) {
   return row;
 }
 
+/// Physical damping and viscosity only lose energy, so growth is an error of the motion equation.
+double energy_growth(const Simulation::Energy& now, double at_start) {
+  const double at_work = now.kinetic + now.elastic;
+  return at_work > 0 ? (now.total() - at_start) / at_work : 0;
+}
+
 }  // namespace
 
 bool Schedule::due(std::int64_t step) const {
@@ -70,6 +76,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     if (row_due && watch.history && recorded != s.step()) watch.history(history_row(s)), recorded = s.step();
   };
 
+  const double energy_at_start = s.energy().total();
   record(true, true);
   while (s.step() < s.last_step()) {
     const auto before = Clock::now();
@@ -90,12 +97,13 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
           fmt::format("unbalanced force ratio below {:g}", s.scene().stop.unbalanced_force_ratio);
     } else if (watch.interrupted && watch.interrupted()) {
       outcome.status = RunStatus::interrupted;
-      outcome.message = fmt::format("interrupted at {:.6g} s", s.time());
+      outcome.message = "stopped by request";
     }
     if (outcome.status != RunStatus::completed) break;
   }
   const bool showable = outcome.status != RunStatus::unstable || s.showable();
   if (showable) record(true, true);
+  outcome.energy_growth = showable ? energy_growth(s.energy(), energy_at_start) : std::nan("");
   return outcome;
 }
 

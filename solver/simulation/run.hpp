@@ -32,6 +32,7 @@ struct RunWatch {
 struct RunOutcome {
   RunStatus status = RunStatus::completed;
   std::string message;          ///< where and why, unless completed
+  double energy_growth = 0;     ///< as in Summary; not a number where the state has broken down
   double stepping_seconds = 0;  ///< wall time without what the watch did [s]
 };
 

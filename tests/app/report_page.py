@@ -95,6 +95,7 @@ class Browser:
         return self.call("POST", self.session + "/execute/sync", {"script": script, "args": []})
 
     def close(self):
+        self.call("DELETE", self.session)  # ends the browser
         self.driver.terminate()
         self.driver.wait()
 

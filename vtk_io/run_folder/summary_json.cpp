@@ -98,6 +98,7 @@ Json to_json(const Summary& summary) {
   json["formulation"] = summary.formulation;
   json["kernel_correction"] = summary.kernel_correction;
   put(json, "unbalanced_force_ratio", summary.unbalanced_force_ratio);
+  put(json, "energy_growth", summary.energy_growth);
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   json["skipped"] = summary.skipped;
@@ -226,6 +227,7 @@ Summary summary_from(const Object& json) {
   summary.formulation = json.text("formulation");
   summary.kernel_correction = json.truth("kernel_correction");
   summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");
+  summary.energy_growth = json.number("energy_growth");
   const auto probes = json.object("probes");
   for (const auto& name : probes.keys()) summary.probes[name] = probe_from(probes.object(name));
   if (json.has("errors")) {
