@@ -104,7 +104,9 @@ void declare(Fields& f, SoilCase& c) {
   if (c.unit_weight_unsaturated > c.unit_weight_saturated)
     f.reject("unit_weight_unsaturated",
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
-  f.flag(Key("no_tension", "", "No tension and no cohesion: no effective stress where its mean would be tensile."), c.no_tension);
+  f.flag(Key("no_tension", "",
+             "No tension and no cohesion: no effective stress where its mean would be tensile."),
+         c.no_tension);
   f.point(Key("velocity", "m/s", "At the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
                "At the start: counter-clockwise, about the middle of the polygon's bounding box."),
