@@ -5,7 +5,7 @@ set -euo pipefail
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
-tests=("${release[@]}" catch2 python3 chromium chromium-driver)
+tests=("${release[@]}" catch2 python3 chromium)
 
 case "${1:-}" in
   compute) wanted=("${compute[@]}") ;;
