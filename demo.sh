@@ -41,15 +41,17 @@ start() {
 echo "Computing, $jobs_at_once runs at a time, into $out:"
 foundation=cases/foundation.toml
 embankment=cases/embankment.toml
-start embankment/consistent "$embankment"
-start embankment/proposed "$embankment" formulation.motion=proposed
+sooner=(time.courant=0.4 loading.damping=0.004)  # twice the time step, the same damping c_d = xi / dt
+start embankment/proposed "$embankment" formulation.motion=proposed "${sooner[@]}"
+start embankment/consistent "$embankment" "${sooner[@]}"
 start foundation/proposed "$foundation" formulation.motion=proposed
-start foundation/proposed_uncorrected "$foundation" formulation.motion=proposed formulation.kernel_correction=false
-start foundation/proposed_undamped "$foundation" formulation.motion=proposed loading.damping=0
-start foundation/conventional "$foundation" formulation.motion=conventional
+start foundation/proposed_uncorrected "$foundation" formulation.motion=proposed formulation.kernel_correction=false \
+  "${sooner[@]}"
+start foundation/proposed_undamped "$foundation" formulation.motion=proposed time.courant=0.4 loading.damping=0
+start foundation/conventional "$foundation" formulation.motion=conventional "${sooner[@]}"
 start foundation/consistent "$foundation"
-start foundation/conventional_no_tension "$foundation" formulation.motion=conventional soil.0.no_tension=true
-start foundation/proposed_no_tension "$foundation" formulation.motion=proposed soil.0.no_tension=true
+start foundation/conventional_no_tension "$foundation" formulation.motion=conventional soil.0.no_tension=true time.end=1
+start foundation/proposed_no_tension "$foundation" formulation.motion=proposed soil.0.no_tension=true time.end=1
 wait
 [ ! -s "$failures" ] || exit 1
 "$porosph" fem "$embankment" --out "$out/embankment/fem"
@@ -58,18 +60,23 @@ echo "Drawing:"
 f=$out/foundation
 e=$out/embankment
 singular=(--leave-out 10,6,1 --leave-out 33,6,1 --leave-out 15,11,0.5 --leave-out 20.5,11,0.5)  # toes, crest corners
-{
-  "$porosph" compare "$f/conventional_no_tension" "$f/proposed_no_tension" --time common --field TotalStress:YY \
-    --out "$out/compare/no_tension"
-  "$porosph" compare "$f/conventional" "$f/proposed" --field TotalStress:YY --out "$out/compare/elastic"
-  "$porosph" compare "$e/proposed" "$e/consistent" --fem "$e/fem" "${singular[@]}" --out "$out/compare/embankment"
-  "$porosph" report "$f/proposed" "$f/proposed_uncorrected" "$f/consistent" --out "$out/report/figure_4"
-  "$porosph" report "$f/proposed" "$f/proposed_undamped" --out "$out/report/figure_5"
-  "$porosph" report "$f/conventional" "$f/proposed" "$f/proposed_uncorrected" "$f/proposed_undamped" "$f/consistent" \
-    --out "$out/report/foundation"
-  "$porosph" report "$e/proposed" "$e/consistent" --fem "$e/fem" "${singular[@]}" --out "$out/report/embankment" \
-    --fail-if 'fem.EffectiveStress_YY.relative_l2>0.04'
-} > "$out/logs/figures.log"
+# draw ARGUMENTS...: as run, several at a time.
+draw() {
+  while [ "$(jobs -pr | wc -l)" -ge "$jobs_at_once" ]; do wait -n; done
+  ("$porosph" "$@" >> "$out/logs/figures.log" || echo "porosph $* failed" | tee -a "$failures" >&2) &
+}
+draw compare "$f/conventional_no_tension" "$f/proposed_no_tension" --time common --field TotalStress:YY \
+  --out "$out/compare/no_tension"
+draw compare "$f/conventional" "$f/proposed" --field TotalStress:YY --out "$out/compare/elastic"
+draw compare "$e/proposed" "$e/consistent" --fem "$e/fem" "${singular[@]}" --out "$out/compare/embankment"
+draw report "$f/proposed" "$f/proposed_uncorrected" "$f/consistent" --out "$out/report/figure_4"
+draw report "$f/proposed" "$f/proposed_undamped" --out "$out/report/figure_5"
+draw report "$f/conventional" "$f/proposed" "$f/proposed_uncorrected" "$f/proposed_undamped" "$f/consistent" \
+  --out "$out/report/foundation"
+draw report "$e/proposed" "$e/consistent" --fem "$e/fem" "${singular[@]}" --out "$out/report/embankment" \
+  --fail-if 'fem.EffectiveStress_YY.relative_l2>0.04'
+wait
+[ ! -s "$failures" ] || exit 1
 cp "$out/compare/no_tension/TotalStress_YY.png" "$figures/figure_3_no_tension.png"
 cp "$out/compare/elastic/TotalStress_YY.png" "$figures/figure_3_elastic.png"
 cp "$out/report/figure_4/history.png" "$figures/figure_4.png"
