@@ -5,7 +5,6 @@
 
 #include "solver/correction/kernel_correction.hpp"
 #include "solver/motion/soil_step.hpp"
-#include "solver/parallel.hpp"
 #include "solver/stabilisation/artificial_stress.hpp"
 
 namespace porosph {
@@ -332,7 +331,7 @@ void PaperDynamics::strain(double dt) {
   fill_ghost_velocities();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < model_.particles.size(); ++a) {
-    const Mat2 gradient = mid_step_gradient(velocity_gradient(a), Mat2::Identity(), dt);
+    const Mat2 gradient = mid_step_gradient(velocity_gradient(a), dt);
     update_stress(model_, a, gradient, dt);
     update_density(model_.particles, a, gradient, dt);
   }

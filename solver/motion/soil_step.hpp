@@ -1,4 +1,4 @@
-// One particle's material step, the same for every motion equation.
+// One particle's material step, for motion equations on the present configuration.
 #pragma once
 
 #include "solver/model/model.hpp"
@@ -17,10 +17,10 @@ inline void update_density(Particles& p, std::size_t a, const Mat2& velocity_gra
   p.density[a] *= (1 - half) / (1 + half);
 }
 
-/// Velocity gradient at the middle of a step from `rate`, the gradient over the coordinates in which the
-/// deformation at the step's start is `start` (Hughes and Winget 1980: a rigid rotation strains nothing).
-inline Mat2 mid_step_gradient(const Mat2& rate, const Mat2& start, double dt) {
-  return rate * inverse(Mat2(start + 0.5 * dt * rate));
+/// Velocity gradient over the coordinates at the middle of the step, from `rate`, that over those at its
+/// start [1/s] (Hughes and Winget 1980: a rigid rotation strains nothing).
+inline Mat2 mid_step_gradient(const Mat2& rate, double dt) {
+  return rate * inverse(Mat2(Mat2::Identity() + 0.5 * dt * rate));
 }
 
 }  // namespace porosph
