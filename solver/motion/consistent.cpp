@@ -54,12 +54,21 @@ void ConsistentDynamics::prepare() {
 }
 
 void ConsistentDynamics::refresh() {
-  make_images();
-  make_gradients();
-  make_one_sided_gradients();
+  make_reference();
   start_from_reference();
   have_reference_ = true;
   ++counts.refreshes;
+}
+
+/// Everything that belongs to the reference configuration, for the particles where they are now.
+void ConsistentDynamics::make_reference() {
+  make_images();
+  make_gradients();
+  make_one_sided_gradients();
+  deformation_.assign(model_.particles.size(), Mat2::Identity());
+  piola_.resize(points_.size());
+  records_.assign(points_.size(), Record{});
+  velocities_.resize(points_.size());
 }
 
 void ConsistentDynamics::make_images() {
@@ -147,11 +156,6 @@ void ConsistentDynamics::make_one_sided_gradients() {
 }
 
 void ConsistentDynamics::start_from_reference() {
-  const std::size_t n = model_.particles.size();
-  deformation_.assign(n, Mat2::Identity());
-  piola_.resize(points_.size());
-  records_.assign(points_.size(), Record{});
-  velocities_.resize(points_.size());
   fill_image_velocities();
   strain_all(0);
   largest_strain_ = 0;
@@ -366,6 +370,35 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < model_.particles.size(); ++a)
     out[a] = deformation_rate(a) * inverse(deformation_[a]);
+}
+
+void ConsistentDynamics::visit(StateArchive& state) {
+  state.value("has_reference", have_reference_);
+  if (!have_reference_) return;
+  const std::size_t n = model_.particles.size();
+  std::vector<Vec2> positions(n);
+  std::vector<double> densities(n);
+  if (!state.restoring()) {
+    std::copy_n(points_.begin(), n, positions.begin());
+    densities = reference_density_;
+  }
+  state.array("reference_position", positions);
+  state.array("reference_density", densities);
+  if (state.restoring()) restore_reference(positions, densities);
+  state.array("deformation", deformation_);
+  state.array("piola", std::span(piola_).first(n));  // of the images: made when they are needed
+  state.array("records", std::span(records_).first(n));
+  state.value("largest_strain", largest_strain_);
+  state.value("travel", travel_);
+}
+
+/// The reference as it was made when the particles had these positions and densities.
+void ConsistentDynamics::restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities) {
+  Particles& p = model_.particles;
+  p.position.swap(positions), p.density.swap(densities);
+  make_reference();
+  p.position.swap(positions), p.density.swap(densities);
+  fill_image_velocities();
 }
 
 void ConsistentDynamics::strain(double dt) {

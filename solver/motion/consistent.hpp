@@ -28,9 +28,12 @@ class ConsistentDynamics final : public Dynamics {
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  void visit(StateArchive& state) override;
 
  private:
   void refresh();
+  void make_reference();
+  void restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities);
   void make_images();
   void make_gradients();
   void make_one_sided_gradients();
