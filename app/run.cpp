@@ -104,10 +104,18 @@ struct LeftOff {
   }
 };
 
+std::optional<FoundState> find_sound_state(const std::filesystem::path& folder, const std::string& case_text) {
+  try {
+    return find_state(folder, case_text);
+  } catch (const ReadError& error) {
+    throw ReadError(error, "; --force begins the run anew");
+  }
+}
+
 /// Puts the simulation where the folder's checkpoint left off; nothing if there is none.
 std::optional<LeftOff> restore(const std::filesystem::path& folder, const std::string& case_text,
                                Simulation& simulation) {
-  const auto found = find_state(folder, case_text);
+  const auto found = find_sound_state(folder, case_text);
   if (!found) return std::nullopt;
   if (!found->note.empty()) std::cerr << "porosph: " << found->note << "; the checkpoint before it is used\n";
   LeftOff left_off;
@@ -140,6 +148,8 @@ int run_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
   const auto start = std::chrono::steady_clock::now();
+  std::signal(SIGINT, catch_signal);
+  std::signal(SIGTERM, catch_signal);
   const Case scene = read_case(options->case_file, options->overrides);
   const std::string case_text = write_case(scene);
   if (!options->force) check_owner(options->folder, case_text, options->resume);
@@ -170,8 +180,6 @@ int run_command(const Arguments& arguments) {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
     return now.count() + (left_off ? left_off->wall_seconds : 0);
   };
-  std::signal(SIGINT, catch_signal);
-  std::signal(SIGTERM, catch_signal);
   Progress progress(options->quiet, simulation);
   Interval since_checkpoint(options->checkpoint_every);
   const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {

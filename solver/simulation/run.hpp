@@ -40,7 +40,7 @@ struct RunWatch {
   std::function<bool()> interrupted;                            ///< true ends the run after this step
   /// After every step from which a run can go on: the place to save simulation and progress. `ending`: the
   /// run was interrupted. What it writes next does not belong to a run that is resumed from here.
-  std::function<void(Simulation&, RunProgress&, bool ending)> checkpoint;
+  std::function<void(Simulation&, RunProgress&, bool ending)> checkpoint = {};
 };
 
 struct RunOutcome {
