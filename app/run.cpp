@@ -1,6 +1,5 @@
 // porosph run: computes a case and keeps its files.
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <csignal>
 #include <filesystem>
@@ -8,9 +7,11 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/results.hpp"
 #include "app/summarise.hpp"
+#include "app/threads.hpp"
 #include "solver/case/case_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
@@ -81,12 +82,6 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-/// More threads than this would wait for each other.
-int useful_threads(std::size_t particles) {
-  constexpr std::size_t particles_per_thread = 4000;
-  return std::clamp(static_cast<int>(particles / particles_per_thread), 1, omp_get_num_procs());
-}
-
 int exit_of(RunStatus status) {
   if (status == RunStatus::unstable) return Exit::unstable;
   return status == RunStatus::interrupted ? Exit::interrupted : Exit::done;
@@ -104,7 +99,8 @@ struct LeftOff {
   }
 };
 
-std::optional<FoundState> find_sound_state(const std::filesystem::path& folder, const std::string& case_text) {
+std::optional<FoundState> find_sound_state(const std::filesystem::path& folder,
+                                           const std::string& case_text) {
   try {
     return find_state(folder, case_text);
   } catch (const ReadError& error) {
@@ -159,9 +155,9 @@ int run_command(const Arguments& arguments) {
       return exit_of(done->status);
     }
   }
+  check_memory(scene);
   Simulation simulation(scene);
-  omp_set_num_threads(options->threads > 0 ? options->threads
-                                           : useful_threads(simulation.model().particles.size()));
+  use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
       options->resume ? restore(options->folder, case_text, simulation) : std::optional<LeftOff>();
   Results results = left_off ? Results(options->folder, simulation, options->frames, left_off->progress)

@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string endless = "run small.toml --set time.end=1e5 --set output.interval=10 --checkpoint-every 0.01";
+const std::string endless =
+    "run small.toml --set time.end=1e5 --set output.interval=10 --checkpoint-every 0.01";
 
 /// Begins a run that would take days, and sends it the signal once it has written `file`. Its exit status.
 int stop_endless_run(const Workplace& place, const std::string& signal, const std::string& file) {
