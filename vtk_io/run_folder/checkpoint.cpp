@@ -61,24 +61,6 @@ std::uint32_t checksum(std::initializer_list<std::string_view> parts) {
   return crc.checksum();
 }
 
-/// The state in a checkpoint. Throws ReadError.
-std::string read_checkpoint(const fs::path& file, std::string_view case_text) {
-  const std::string text = read_file(file);
-  std::string_view rest = text;
-  if (!rest.starts_with(magic)) throw ReadError(file, "it is no checkpoint");
-  rest.remove_prefix(magic.size());
-  std::uint32_t its_version = 0, its_checksum = 0;
-  if (!take(rest, its_version) || !take(rest, its_checksum)) throw ReadError(file, "it is cut short");
-  if (its_version != version)
-    throw ReadError(file, fmt::format("its format is {}, this program's is {}", its_version, version));
-  if (checksum({rest}) != its_checksum) throw ReadError(file, "it is damaged: its checksum is not right");
-  std::string_view its_case, state;
-  if (!take_text(rest, its_case) || !take_text(rest, state) || !rest.empty())
-    throw ReadError(file, "it is damaged: its lengths do not fit");
-  if (its_case != case_text) throw ReadError(file, "it belongs to another case");
-  return std::string(state);
-}
-
 }  // namespace
 
 void StateWriter::bytes(std::string_view name, void* data, std::size_t size) {
@@ -123,6 +105,23 @@ void write_checkpoint(const fs::path& folder, std::string_view case_text, const 
 bool has_checkpoint(const fs::path& folder) {
   std::error_code ignored;
   return fs::exists(folder / newest_name, ignored) || fs::exists(folder / previous_name, ignored);
+}
+
+std::string read_checkpoint(const fs::path& file, std::string_view case_text) {
+  const std::string text = read_file(file);
+  std::string_view rest = text;
+  if (!rest.starts_with(magic)) throw ReadError(file, "it is no checkpoint");
+  rest.remove_prefix(magic.size());
+  std::uint32_t its_version = 0, its_checksum = 0;
+  if (!take(rest, its_version) || !take(rest, its_checksum)) throw ReadError(file, "it is cut short");
+  if (its_version != version)
+    throw ReadError(file, fmt::format("its format is {}, this program's is {}", its_version, version));
+  if (checksum({rest}) != its_checksum) throw ReadError(file, "it is damaged: its checksum is not right");
+  std::string_view its_case, state;
+  if (!take_text(rest, its_case) || !take_text(rest, state) || !rest.empty())
+    throw ReadError(file, "it is damaged: its lengths do not fit");
+  if (its_case != case_text) throw ReadError(file, "it belongs to another case");
+  return std::string(state);
 }
 
 std::optional<FoundState> find_state(const fs::path& folder, std::string_view case_text) {

@@ -49,6 +49,9 @@ struct FoundState {
 /// another version is passed over, and replaced by the one before it. Throws ReadError where none is left.
 std::optional<FoundState> find_state(const std::filesystem::path& folder, std::string_view case_text);
 
+/// The state in one checkpoint. Throws ReadError where it is damaged, of another case or another version.
+std::string read_checkpoint(const std::filesystem::path& file, std::string_view case_text);
+
 void remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace porosph
