@@ -57,14 +57,21 @@ void ConsistentDynamics::prepare() {
 }
 
 void ConsistentDynamics::refresh() {
+  make_reference();
+  start_from_reference();
+  have_reference_ = true;
+  ++counts.refreshes;
+}
+
+/// Everything that belongs to the reference configuration, for the particles where they are now.
+void ConsistentDynamics::make_reference() {
   make_images();
   make_gradients();
   make_corrections();
   make_one_sided_gradients();
   choose_records();
-  start_from_reference();
-  have_reference_ = true;
-  ++counts.refreshes;
+  make_room();
+  connect_arrays();
 }
 
 void ConsistentDynamics::make_images() {
@@ -159,22 +166,24 @@ void ConsistentDynamics::choose_records() {
 }
 
 void ConsistentDynamics::start_from_reference() {
+  update_velocities();
+  strain_all(0);
+  largest_strain_ = 0;
+  travel_ = 0;
+}
+
+/// For the state since the reference: undeformed so far.
+void ConsistentDynamics::make_room() {
   const Particles& p = model_.particles;
-  const std::size_t n = p.size();
-  for (int k = 0; k < 4; ++k) deformation_[k].assign(n, k == 0 || k == 3 ? 1.0 : 0.0);
+  for (int k = 0; k < 4; ++k) deformation_[k].assign(p.size(), k == 0 || k == 3 ? 1.0 : 0.0);
   resize(flux_, points_.size());
   for (auto& v : velocity_) v.resize(points_.size());
   wet_ = model_.water.present() ||
          std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(), [](double w) { return w != 0; });
   if (wet_) pressure_.resize(points_.size());
   records_.assign(points_.size(), Record{});
-  piola_.resize(points_.size());
+  piola_.assign(points_.size(), PlaneTensor{});
   image_positions_.resize(images_.size());
-  connect_arrays();
-  update_velocities();
-  strain_all(0);
-  largest_strain_ = 0;
-  travel_ = 0;
 }
 
 void ConsistentDynamics::connect_arrays() {
@@ -351,6 +360,45 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
     for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
       out[a] = matrix(rate[a - first]) * inverse(get(deformation_, a));
   }
+}
+
+void ConsistentDynamics::visit(StateArchive& state) {
+  state.value("has_reference", have_reference_);
+  if (!have_reference_) return;
+  const std::size_t n = model_.particles.size();
+  std::vector<Vec2> positions(n);
+  std::vector<double> densities(n);
+  if (!state.restoring()) {
+    std::copy_n(points_.begin(), n, positions.begin());
+    densities = reference_density_;
+  }
+  state.array("reference_position", positions);
+  state.array("reference_density", densities);
+  if (state.restoring()) restore_reference(positions, densities);
+  for (auto& component : deformation_) state.array("deformation", component);
+  for (auto& component : flux_) state.array("flux", std::span(component).first(n));
+  state.array("piola",
+              std::span(piola_).first(n));  // of the images, as their flux: made when they are needed
+  state.value("largest_strain", largest_strain_);
+  state.value("travel", travel_);
+  if (state.restoring()) update_flux_records();
+}
+
+/// The reference as it was made when the particles had these positions and densities.
+void ConsistentDynamics::restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities) {
+  Particles& p = model_.particles;
+  p.position.swap(positions), p.density.swap(densities);
+  make_reference();
+  p.position.swap(positions), p.density.swap(densities);
+  connect_arrays();
+  update_velocities();
+}
+
+/// As the kernels leave them after each step.
+void ConsistentDynamics::update_flux_records() {
+  for (std::size_t a = 0; a < model_.particles.size(); ++a)
+    if (listed_[a])
+      for (int k = 0; k < 4; ++k) records_[a].q[k] = flux_[k][a];
 }
 
 void ConsistentDynamics::strain(double dt) {

@@ -33,15 +33,19 @@ class ConsistentDynamics final : public Dynamics {
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  void visit(StateArchive& state) override;
 
  private:
   void refresh();
+  void make_reference();
+  void restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities);
   void make_images();
   void make_gradients();
   void make_corrections();
   void make_one_sided_gradients();
   void choose_records();
   void start_from_reference();
+  void make_room();
   void connect_arrays();
   bool strangers_are_near();
 
@@ -49,6 +53,7 @@ class ConsistentDynamics final : public Dynamics {
   void update_velocities();
   void update_pressures();
   void update_image_fluxes();
+  void update_flux_records();
   void extrapolate_stress();
 
   Mat2 correction(std::size_t i) const { return get(correction_, i); }

@@ -96,6 +96,26 @@ void Simulation::drift() {
   if (runaway_) instability_ = find_runaway(model_, time() + dt_);
 }
 
+void Simulation::visit(StateArchive& state) {
+  Particles& p = model_.particles;
+  bool prepared = accelerations_valid_;
+  Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
+  state.value("step", step_);
+  state.value("prepared", prepared);
+  state.value("searches", counts_then.searches);
+  state.value("refreshes", counts_then.refreshes);
+  state.array("position", p.position);
+  state.array("velocity", p.velocity);
+  state.array("stress", p.stress);
+  state.array("pore_pressure", p.pore_pressure);
+  state.array("density", p.density);
+  dynamics_->visit(state);
+  if (!state.restoring()) return;
+  accelerations_valid_ = false;
+  if (prepared) accelerations();
+  counts = counts_then;
+}
+
 void Simulation::look_for_separation() {
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, bodies_at_start_, time());
