@@ -9,7 +9,7 @@ namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 3> arrangements{"lattice", "fitted", "disordered"};
+constexpr std::array<Names, 4> arrangements{"lattice", "fitted", "disordered", "surface"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
@@ -182,6 +182,11 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
+  f.number(key_of_consistent("zero_energy_stiffness",
+                             "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
+                             "u, u the displacement since kernel gradients were made; 0: viscous only.")
+               .otherwise(fmt::to_string(usual.zero_energy_stiffness)),
+           c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are made anew; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),

@@ -44,8 +44,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
     : model_(model),
       formulation_(formulation),
       kernel_(model.smoothing_length),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) *
-                             model.smoothing_length) {}
+      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) * model.smoothing_length),
+      zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {}
 
 void ConsistentDynamics::prepare() {
   const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
@@ -82,7 +82,7 @@ void ConsistentDynamics::make_gradients() {
 
   volume_.resize(points_.size());
   reference_density_ = p.density;
-  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a);
+  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a) / p.fill[a];
   for (std::size_t i = 0; i < images_.size(); ++i) volume_[n + i] = volume_[images_[i].parent];
 
   gradient_.resize(neighbours_.index.size());
@@ -206,19 +206,21 @@ ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, 
   for (std::size_t i = 0; i < last - first; ++i) {
     const std::size_t a = first + i;
     const double mu = zero_energy_viscosity_;
+    const double k = zero_energy_rate_;
     Mat2& f = deformation_[a];
     f << block.deformation[0][i], block.deformation[1][i], block.deformation[2][i], block.deformation[3][i];
     p.stress[a] = {block.stress[0][i], block.stress[1][i], block.stress[2][i], block.stress[3][i]};
     p.density[a] = block.density[i];
     Mat2& piola = piola_[a];
     piola << block.piola[0][i], block.piola[1][i], block.piola[2][i], block.piola[3][i];
-    const Mat2& l = correction_[a];
+    const Mat2 l = p.fill[a] * correction_[a];
     Lanes& q = records_[a].q;
-    q[t_xx] = piola(0, 0) * l(0, 0) + piola(0, 1) * l(1, 0) - mu * block.rate[0][i];
-    q[t_xy] = piola(0, 0) * l(0, 1) + piola(0, 1) * l(1, 1) - mu * block.rate[1][i];
-    q[t_yx] = piola(1, 0) * l(0, 0) + piola(1, 1) * l(1, 0) - mu * block.rate[2][i];
-    q[t_yy] = piola(1, 0) * l(0, 1) + piola(1, 1) * l(1, 1) - mu * block.rate[3][i];
-    q[v_x] = velocities_[a].x(), q[v_y] = velocities_[a].y();
+    q[t_xx] = piola(0, 0) * l(0, 0) + piola(0, 1) * l(1, 0) - mu * (block.rate[0][i] + k * (f(0, 0) - 1));
+    q[t_xy] = piola(0, 0) * l(0, 1) + piola(0, 1) * l(1, 1) - mu * (block.rate[1][i] + k * f(0, 1));
+    q[t_yx] = piola(1, 0) * l(0, 0) + piola(1, 1) * l(1, 0) - mu * (block.rate[2][i] + k * f(1, 0));
+    q[t_yy] = piola(1, 0) * l(0, 1) + piola(1, 1) * l(1, 1) - mu * (block.rate[3][i] + k * (f(1, 1) - 1));
+    const Vec2 motion = velocities_[a] + k * (p.position[a] - points_[a]);
+    q[v_x] = motion.x(), q[v_y] = motion.y();
     largest.strain = std::max(
         {largest.strain, std::abs(f(0, 0) - 1), std::abs(f(0, 1)), std::abs(f(1, 0)), std::abs(f(1, 1) - 1)});
     largest.speed_squared = std::max(largest.speed_squared, velocities_[a].squaredNorm());
@@ -304,12 +306,15 @@ void ConsistentDynamics::fill_image_records() {
 
   for (std::size_t i = 0; i < images_.size(); ++i) {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
-    const Mat2 viscous = stress_lanes(records_[parent]) - piola_[parent] * correction_[parent];
+    const double fill = model_.particles.fill[root_[i]];
+    const Mat2 viscous = stress_lanes(records_[parent]) - fill * piola_[parent] * correction_[parent];
     Record& record = records_[n + i];
-    set_stress_lanes(
-        record, piola_[n + i] * correction_[n + i] + image_of_rate(model_.walls[images_[i].wall], viscous));
-    record.q[v_x] = velocities_[n + i].x();
-    record.q[v_y] = velocities_[n + i].y();
+    set_stress_lanes(record, fill * piola_[n + i] * correction_[n + i] +
+                                 image_of_rate(model_.walls[images_[i].wall], viscous));
+    const Lanes& from = records_[parent].q;
+    const Vec2 motion = image_of_velocity(model_.walls[images_[i].wall], Vec2(from[v_x], from[v_y]));
+    record.q[v_x] = motion.x();
+    record.q[v_y] = motion.y();
   }
 }
 
@@ -347,7 +352,9 @@ void ConsistentDynamics::accelerate_range(std::size_t first, std::size_t last, V
     const Vec2 pressure_force(
         f(1, 1) * corrected.x() - f(1, 0) * corrected.y(),  // J F^-T, the cofactors of F
         f(0, 0) * corrected.y() - f(0, 1) * corrected.x());
-    out[a] = (stress_force + viscous_force + pressure_force) / reference_density_[a] + model_.gravity;
+    out[a] =
+        ((stress_force + viscous_force) / model_.particles.fill[a] + pressure_force) / reference_density_[a] +
+        model_.gravity;
   }
 }
 

@@ -53,6 +53,7 @@ class ConsistentDynamics final : public Dynamics {
   FormulationCase formulation_;
   CubicSpline<2> kernel_;
   double zero_energy_viscosity_;  ///< mu = kappa rho c_p h [Pa s]
+  double zero_energy_rate_;       ///< the control acts on v + rate * displacement since the reference [1/s]
 
   // The reference configuration. Images of walls that extrapolate the stress come first, then those that
   // mirror it.
@@ -76,9 +77,10 @@ class ConsistentDynamics final : public Dynamics {
   std::vector<std::int32_t> one_sided_of_;  ///< of each extrapolated image
 
   // The state since then.
-  std::vector<Mat2> deformation_;      ///< F
-  std::vector<Mat2> piola_;            ///< first Piola-Kirchhoff stress P, of particles and images [Pa]
-  std::vector<Record> records_;        ///< P L - mu dF/dt (columns), p_w, v: of particles and images
+  std::vector<Mat2> deformation_;  ///< F
+  std::vector<Mat2> piola_;        ///< first Piola-Kirchhoff stress P, of particles and images [Pa]
+  /// Of particles and images: fill P L - mu (dF/dt + rate (F - I)) (columns), p_w, v + rate * displacement.
+  std::vector<Record> records_;
   std::vector<Vec2> velocities_;       ///< of particles and images
   std::vector<Vec2> image_positions_;  ///< where the images are now [m]
   double largest_strain_ = 0;          ///< |F - I| since the refresh
