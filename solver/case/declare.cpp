@@ -204,12 +204,21 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.k0_stress, "k0_stress = true")
                .otherwise("nu / (1 - nu) of each soil"),
            c.k0, between(0, 10));
-  f.number(Key("damping", "", "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off."),
-           c.damping, between(0, 1));
+  f.number_or(
+      Key("damping", "",
+          "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off. `adaptive`: critical "
+          "for the lowest vibration that the motion contains, to come to rest soonest."),
+      c.damping, between(0, 1), "adaptive", c.adaptive_damping);
   f.number(Key("damping_until", "s", "When the damping ends.")
-               .only_if(c.damping > 0, "damping > 0")
+               .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
+  f.integer(
+      Key("coarse_starts", "",
+          "Start from the displacements at rest of a run with twice the spacing, which itself starts from "
+          "one with twice its spacing, so many times.")
+          .only_if(c.gravity_applied && !c.k0_stress, "k0_stress = false"),
+      c.coarse_starts, between(0, 5));
 }
 
 void declare(Fields& f, TimeCase& c) {

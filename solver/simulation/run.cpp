@@ -5,13 +5,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/simulation/coarse_start.hpp"
+
 namespace porosph {
 namespace {
 
 constexpr std::int64_t steps_between_balances = 10, steps_between_separation_checks = 200;
 
 /// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
-/// crosses the body to and fro.
+/// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
 class Equilibrium {
  public:
   explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
@@ -23,7 +25,8 @@ class Equilibrium {
   bool reached(Simulation& s) {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
     if (s.unbalanced_force_ratio() >= limit_) since_ = s.time();
-    return s.time() - since_ >= needed_;
+    const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
+    return s.time() - since_ >= (c > 0 ? std::min(needed_, 4 / c) : needed_);
   }
 
  private:
@@ -76,6 +79,11 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     if (row_due && watch.history && recorded != s.step()) watch.history(history_row(s)), recorded = s.step();
   };
 
+  if (s.step() == 0 && s.scene().loading.coarse_starts > 0) {
+    const auto before = Clock::now();
+    start_from_coarse(s);
+    outcome.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+  }
   const double energy_at_start = s.energy().total();
   record(true, true);
   while (s.step() < s.last_step()) {
