@@ -49,6 +49,18 @@ class Reader : public Fields {
       }
   }
 
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    const toml::node* node = key.is_used ? table_->get(key.name) : nullptr;
+    const auto given = node ? node->value<std::string>() : std::nullopt;
+    if (!given) return is_word = is_word && !node, number(key, value, range);
+    known_.emplace_back(key.name);
+    if (is_word = *given == word; !is_word)
+      fail(key, path(key),
+           fmt::format("must be a number {} or \"{}\"{}", range.text(), word,
+                       did_you_mean(nearest(*given, {std::string(word)}))));
+  }
+
   void integer(const Key& key, int& value, const Range& range) override {
     const toml::node* node = find(key);
     if (!node) return;

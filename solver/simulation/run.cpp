@@ -5,13 +5,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/simulation/coarse_start.hpp"
+
 namespace porosph {
 namespace {
 
 constexpr std::int64_t steps_between_balances = 10, steps_between_separation_checks = 200;
 
 /// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
-/// crosses the body to and fro.
+/// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
 class Equilibrium {
  public:
   explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
@@ -24,7 +26,8 @@ class Equilibrium {
   bool reached(Simulation& s, double& unbalanced_at) const {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
     if (s.unbalanced_force_ratio() >= limit_) unbalanced_at = s.time();
-    return s.time() - unbalanced_at >= needed_;
+    const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
+    return s.time() - unbalanced_at >= (c > 0 ? std::min(needed_, 4 / c) : needed_);
   }
 
  private:
@@ -91,6 +94,11 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   };
 
   if (!progress.has_begun()) {
+    if (s.scene().loading.coarse_starts > 0) {
+      const auto before = Clock::now();
+      start_from_coarse(s);
+      progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    }
     progress.energy_at_start = s.energy().total();
     record(true, true);
   }

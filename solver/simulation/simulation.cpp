@@ -49,7 +49,9 @@ Simulation::Simulation(const Case& scene)
 }
 
 double Simulation::damping() const {
-  return time() < scene_.loading.damping_until ? scene_.loading.damping / dt_ : 0;
+  const LoadingCase& loading = scene_.loading;
+  if (time() >= loading.damping_until) return 0;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / dt_;
 }
 
 std::span<const Vec2> Simulation::accelerations() {
@@ -73,10 +75,31 @@ std::vector<Vec2> Simulation::velocities() {
 void Simulation::advance() {
   if (instability_) return;
   accelerations();
+  const bool measure = scene_.loading.adaptive_damping && step_ % Relaxation::steps_between == 0;
+  if (measure) before_ = accelerations_;
   drift();
   accelerations_valid_ = false;
   ++step_;
-  if (!instability_) dynamics_->strain(dt_);
+  if (instability_) return;
+  dynamics_->strain(dt_);
+  if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
+}
+
+void Simulation::displace(std::span<const Vec2> displacement, int steps) {
+  Particles& p = model_.particles;
+  for (int k = 0; k < steps; ++k) {
+    dynamics_->prepare();
+    for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = displacement[i] / (steps * dt_);
+    for (std::size_t i = 0; i < p.size(); ++i) p.position[i] += dt_ * p.velocity[i];
+    dynamics_->strain(dt_);
+  }
+  if (model_.water.present())
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
+  for (Vec2& v : p.velocity) v.setZero();
+  dynamics_->prepare();
+  dynamics_->strain(0);
+  accelerations_valid_ = false;
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
@@ -109,6 +132,9 @@ void Simulation::visit(StateArchive& state) {
   state.array("stress", p.stress);
   state.array("pore_pressure", p.pore_pressure);
   state.array("density", p.density);
+  state.value("relaxation_stiffness", relaxation_.stiffness);
+  state.value("relaxation_inertia", relaxation_.inertia);
+  state.value("relaxation_damping", relaxation_.damping);
   dynamics_->visit(state);
   if (!state.restoring()) return;
   accelerations_valid_ = false;

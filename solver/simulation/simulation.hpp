@@ -9,6 +9,7 @@
 #include "solver/model/model.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/simulation/probe.hpp"
+#include "solver/simulation/relaxation.hpp"
 
 namespace porosph {
 
@@ -54,9 +55,13 @@ class Simulation {
   /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
   /// restored into goes on to the same bits. Throws StateError.
   void visit(StateArchive& state);
+  double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
+
+  /// Moves the particles by these displacements [m], all at once but in so many steps of strain, and leaves
+  /// them at rest. Time does not go on.
+  void displace(std::span<const Vec2> displacement, int steps);
 
  private:
-  double damping() const;  ///< c_d of eq. (34) [1/s]
   void drift();
 
   Case scene_;
@@ -66,6 +71,8 @@ class Simulation {
   double dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;
+  std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
+  Relaxation relaxation_;     ///< unused unless the case's damping is adaptive
   bool accelerations_valid_ = false;
   std::int64_t bodies_at_start_ = 0;
   std::optional<std::string> instability_;
