@@ -49,25 +49,13 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-/// As a shell would have to be given it.
-std::string quoted(const std::string& argument) {
-  const bool plain = !argument.empty() && argument.find_first_not_of(
-                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_-./,:=+@%") == std::string::npos;
-  if (plain) return argument;
-  std::string out = "'";
-  for (char c : argument) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace
 
 int report_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
   ReportInput input;
-  input.command = "porosph report";
-  for (const std::string& argument : arguments) input.command += " " + quoted(argument);
+  input.command = command_line("report", arguments);
   input.left_out = read_left_out(o->left_out);
   for (const std::string& text : o->thresholds) input.thresholds.push_back(parse_threshold(text));
   for (const std::string& folder : o->runs)
