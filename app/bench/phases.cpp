@@ -141,15 +141,13 @@ void write_table(const Phases& phases, const Bench& bench) {
 
 void draw(const Phases& phases, const Bench& bench) {
   static constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
-  ChartFigure figure{.title = "", .charts = {}, .columns = 3, .width = 1500, .height = 460};
-  double low = never, high = 0;
-  for (const PhaseCost& c : phases.costs)
-    if (c.nanoseconds.median > 0)
-      low = std::min(low, c.nanoseconds.median), high = std::max(high, c.nanoseconds.median);
+  ChartFigure figure{.title = "", .charts = {}, .columns = 1, .width = 1100, .height = 1080};
+  double highest = 10;
+  for (const PhaseCost& c : phases.costs) highest = std::max(highest, c.nanoseconds.median);
   for (const Form& form : forms) {
     Chart chart{.title = form.name,
                 .x = {.title = "particles", .logarithmic = true},
-                .y = {.title = "ns per particle", .logarithmic = true, .range = {{0.7 * low, 1.4 * high}}},
+                .y = {.title = "ns per particle", .logarithmic = true, .range = {{1, 2 * highest}}},
                 .series = {},
                 .references = {}};
     std::size_t i = 0;

@@ -15,8 +15,10 @@
 namespace porosph::bench {
 namespace {
 
-constexpr double worth_repeating = 3;  ///< runs shorter than this are made three times [s]
-constexpr double until = 0.97;         ///< of all the time; the rest is for pictures
+/// Runs shorter than this are made three times [s].
+double worth_repeating(bool quick) { return quick ? 0.5 : 3; }
+
+constexpr double until = 0.97;  ///< of all the time; the rest is for pictures
 
 std::string name_of(const Plan& p) {
   return fmt::format("{}, {}, {}, spacing {:.3g} m", p.scene.name, p.form, p.strategy, p.spacing);
@@ -25,8 +27,7 @@ std::string name_of(const Plan& p) {
 /// How long a run will take at most, learned from those before.
 class Expectation {
  public:
-  double seconds(const Plan& plan, const Case& scene) const {
-    const Simulation simulation(scene);
+  double seconds(const Plan& plan, const Simulation& simulation) const {
     const auto found = per_particle_step_.find(plan.form);
     const double each = found != per_particle_step_.end() ? found->second : 1e-6;
     return each * static_cast<double>(simulation.last_step()) *
@@ -94,7 +95,13 @@ WorkPrecision measure_work_precision(Bench& bench) {
   };
   for (const Plan& plan : plans(quick)) {
     const Case scene = read(bench, plan.scene.file, plan.overrides());
-    if (!bench.affords(name_of(plan), expectation.seconds(plan, scene), until)) continue;
+    const Simulation trial(scene);
+    if (const auto n = static_cast<std::int64_t>(trial.model().particles.size());
+        n > bench.options().particles) {
+      bench.leave_out(name_of(plan), fmt::format("{} particles are more than --particles", n));
+      continue;
+    }
+    if (!bench.affords(name_of(plan), expectation.seconds(plan, trial), until)) continue;
     all.push_back({.plan = plan, .scene = scene, .run = {}, .seconds = {}, .settled = {}});
     measure(all.back());
     expectation.learn(plan, all.back().run);
@@ -103,7 +110,8 @@ WorkPrecision measure_work_precision(Bench& bench) {
   }
   for (int round = 0; round < 2; ++round)  // again, in turns
     for (Measured& m : all)
-      if (m.run.seconds < worth_repeating && bench.seconds_left() > (1 - until) * bench.options().seconds + 3)
+      if (m.run.seconds < worth_repeating(quick) &&
+          bench.seconds_left() > (1 - until) * bench.options().seconds + 3)
         measure(m);
   for (const Measured& m : all) work.points.push_back(point_of(m));
   return work;

@@ -73,13 +73,14 @@ void draw(const WorkPrecision& work, const std::vector<std::string>& scenes, con
 }
 
 StudyTable table_of(const WorkPrecision& work, const std::string& scene) {
-  Rows rows = {{"Form", "Strategy", "Spacing [m]", "Particles", "Steps", "Ending", "Error of σ'yy",
-                "Error settled after [s]", "Run time [s]"}};
+  Rows rows = {{"Form, strategy", "Spacing [m]", "Particles", "Steps", "Ending", "Error of σ'yy",
+                "Settled [s]", "Run time [s]"}};
   for (const WorkPoint& p : work.points)
     if (p.scene == scene)
-      rows.push_back({p.form, p.strategy, fmt::format("{:.3g}", p.spacing), std::to_string(p.particles),
-                      p.steps > 0 ? std::to_string(p.steps) : "–", p.ending,
-                      fmt::format("{:.3g} %", 100 * p.error), text(p.settled), text(p.seconds)});
+      rows.push_back({p.form + ", " + p.strategy, fmt::format("{:.3g}", p.spacing),
+                      std::to_string(p.particles), p.steps > 0 ? std::to_string(p.steps) : "–", p.ending,
+                      fmt::format("{:.3g} %", 100 * p.error), fmt::format("{:.3g}", p.settled.median),
+                      text(p.seconds)});
   return {.caption = "The " + scene, .rows = rows};
 }
 
