@@ -1,5 +1,8 @@
-// The parts of a step alone, for work on one of them. Time per particle: items_per_second.
+// The parts of a step alone, on one thread, for work on one of them: particles per second.
 #include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <cmath>
 
 #include "solver/case/case_file.hpp"
 #include "solver/kernel/cubic_spline.hpp"
@@ -84,3 +87,11 @@ BENCHMARK_CAPTURE(strain, consistent, Motion::consistent)->Arg(1024)->Arg(102400
 
 }  // namespace
 }  // namespace porosph
+
+int main(int argc, char** argv) {
+  omp_set_num_threads(1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

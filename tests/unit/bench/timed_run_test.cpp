@@ -1,5 +1,7 @@
 #include "app/bench/timed_run.hpp"
 
+#include <omp.h>
+
 #include <catch2/catch.hpp>
 
 #include "app/bench/bench.hpp"
@@ -30,6 +32,7 @@ Case column() {
 }  // namespace
 
 TEST_CASE("A timed run ends where a run does, at the error that the run tells of") {
+  omp_set_num_threads(1);
   Simulation simulation(column());
   const RunOutcome outcome = run(simulation, {});
   const TimedRun timed = timed_run(column(), make_dynamics, nullptr);
