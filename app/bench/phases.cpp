@@ -185,12 +185,12 @@ StudySection show_phases(const Phases& phases, const Bench& bench) {
   draw(phases, bench);
   return {.heading = "Where the time goes",
           .paragraphs =
-              {"Nanoseconds of one core per particle, medians of several rounds, timed at the calls between "
-               "the integrator and the motion equation. Geometry: what is done in a step to bring ghosts, "
-               "neighbours and kernel gradients up to date, where that is due. Accelerations include the "
-               "images behind walls, integration all that is left of a step. Dotted: what one neighbour "
-               "search, one making of all lists and kernel gradients, one look at equilibrium and "
-               "separation, and one written frame cost; they are not part of every step."},
+              {"Nanoseconds of one core per particle, medians of several rounds, timed at the calls "
+               "between the integrator and the motion equation. Geometry: what is done in a step to bring "
+               "ghosts, neighbours and kernel gradients up to date, where that is due. Accelerations "
+               "include the images behind walls, integration all that is left of a step. Dotted: what one "
+               "neighbour search, one making of all lists and kernel gradients, one look at equilibrium "
+               "and separation, and one written frame cost; they are not part of every step."},
           .tables = {{.caption = "", .rows = cost_table(phases)}},
           .pictures = {{.file = "phases.png",
                         .description = "Cost of the phases of a step over the number of particles",

@@ -11,6 +11,8 @@ struct Scene {
   bool exact;  ///< compared with an exact column; else with finite elements
   /// Damping xi near critical for the lowest mode, per Courant number and metre of spacing: c_d = xi / dt.
   double critical_damping;
+  std::vector<std::string> overrides = {};
+  double end = 4;  ///< the longest a run may take [s]
 };
 
 const std::vector<Scene>& scenes();

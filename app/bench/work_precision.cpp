@@ -82,7 +82,7 @@ WorkPrecision measure_work_precision(Bench& bench) {
   const FemSolution fem = solve_fem(embankment, mesh_case(embankment, quick ? 1 : 0.5));
   for (const Scene& scene : scenes()) {
     const std::vector<double> edges = quick ? std::vector{4., 1.} : std::vector{4., 2., 1., 0.6};
-    for (const WorkPoint& p : measure_fem(bench, scene.name, read(bench, scene.file, {}), edges))
+    for (const WorkPoint& p : measure_fem(bench, scene.name, read(bench, scene.file, scene.overrides), edges))
       work.points.push_back(p);
   }
 
