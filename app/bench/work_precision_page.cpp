@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/bench/csv.hpp"
 #include "app/bench/work_precision.hpp"
@@ -72,6 +73,10 @@ void draw(const WorkPrecision& work, const std::vector<std::string>& scenes, con
   save_charts(figure, bench.options().out / "work_precision.png");
 }
 
+std::string percent(double error) {
+  return std::isfinite(error) ? fmt::format("{:.3g} %", 100 * error) : "–";
+}
+
 StudyTable table_of(const WorkPrecision& work, const std::string& scene) {
   Rows rows = {{"Form, strategy", "Spacing [m]", "Particles", "Steps", "Ending", "Error of σ'yy",
                 "Settled [s]", "Run time [s]"}};
@@ -79,8 +84,7 @@ StudyTable table_of(const WorkPrecision& work, const std::string& scene) {
     if (p.scene == scene)
       rows.push_back({p.form + ", " + p.strategy, fmt::format("{:.3g}", p.spacing),
                       std::to_string(p.particles), p.steps > 0 ? std::to_string(p.steps) : "–", p.ending,
-                      fmt::format("{:.3g} %", 100 * p.error), fmt::format("{:.3g}", p.settled.median),
-                      text(p.seconds)});
+                      percent(p.error), fmt::format("{:.3g}", p.settled.median), text(p.seconds)});
   return {.caption = "The " + scene, .rows = rows};
 }
 
@@ -104,8 +108,9 @@ StudySection show_work_precision(const WorkPrecision& work, const Bench& bench) 
            "itself at equilibrium; one that has no such stop only until its error came within 5 % of its "
            "last value and stayed there. In the table of finite elements the spacing is the length of an "
            "edge, and particles are unknowns. The plain loops with C = 0.2, ξ = 0.002 are the paper's "
-           "procedure. Run times: the median of several runs, which take turns, and half the range from "
-           "the fastest to the slowest."},
+           "procedure; the consistent form with them is the foundation and the embankment as shipped. Run "
+           "times: the median of several runs, which take turns, and half the range from the fastest to "
+           "the slowest."},
       .tables = {},
       .pictures = {{.file = "work_precision.png",
                     .description = "Error over run time, one chart per scene, logarithmic axes",
