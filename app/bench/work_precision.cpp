@@ -88,10 +88,14 @@ WorkPrecision measure_work_precision(Bench& bench) {
 
   Expectation expectation;
   std::vector<Measured> all;
+  const auto time_is_up = [&] { return bench.seconds_left() < (1 - until) * bench.options().seconds; };
   const auto measure = [&](Measured& m) {
     const DynamicsMaker dynamics = m.plan.plain ? DynamicsMaker(make_plain_dynamics) : make_dynamics;
-    m.run = timed_run(m.scene, dynamics, m.plan.scene.exact ? nullptr : &fem);
-    m.seconds.push_back(m.run.seconds), m.settled.push_back(m.run.settled);
+    const TimedRun r = timed_run(m.scene, dynamics, m.plan.scene.exact ? nullptr : &fem, time_is_up);
+    if (r.ending == "interrupted") return false;
+    m.run = r;
+    m.seconds.push_back(r.seconds), m.settled.push_back(r.settled);
+    return true;
   };
   for (const Plan& plan : plans(quick)) {
     const Case scene = read(bench, plan.scene.file, plan.overrides());
@@ -103,7 +107,11 @@ WorkPrecision measure_work_precision(Bench& bench) {
     }
     if (!bench.affords(name_of(plan), expectation.seconds(plan, trial), until)) continue;
     all.push_back({.plan = plan, .scene = scene, .run = {}, .seconds = {}, .settled = {}});
-    measure(all.back());
+    if (!measure(all.back())) {
+      bench.leave_out(name_of(plan), "had not ended when the time was up");
+      all.pop_back();
+      continue;
+    }
     expectation.learn(plan, all.back().run);
     bench.tell(fmt::format("{}: error {:.3g} % in {:.3g} s", name_of(plan), 100 * all.back().run.error,
                            all.back().run.seconds));
