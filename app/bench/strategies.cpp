@@ -74,15 +74,20 @@ std::vector<Plan> plans(bool quick) {
     add(all, embankment, consistent_form, rest_strategy, {0.4});
     return all;
   }
-  add(all, foundation, plain_form, paper_strategy, {0.2});
-  add(all, foundation, consistent_form, rest_strategy, {0.5, 0.25, 0.2, 10. / 60, 0.1});
   add(all, column, consistent_form, refresh_strategy, {0.2});
+  add(all, column, consistent_form, rest_strategy, {0.2});
+  add(all, foundation, consistent_form, rest_strategy, {0.5, 0.25, 0.2, 10. / 60});
+  add(all, embankment, consistent_form, rest_strategy, {0.4, 0.2});
+  add(all, foundation, plain_form, paper_strategy, {0.2});
   add(all, embankment, plain_form, paper_strategy, {0.2});
-  add(all, embankment, consistent_form, rest_strategy, {0.4, 0.2, 0.1});
-  add(all, stiff, consistent_form, rest_strategy, {0.4, 0.2, 0.1});
+  add(all, stiff, consistent_form, rest_strategy, {0.4, 0.2});
+  add(all, foundation, consistent_form, rest_strategy, {0.1});
+  add(all, embankment, consistent_form, rest_strategy, {0.1});
+  add(all, stiff, consistent_form, rest_strategy, {0.1});
   add(all, column, plain_form, paper_strategy, {0.5, 0.2});
+  add(all, column, consistent_form, rest_strategy, {0.5, 0.25, 0.1, 0.05});
   for (const char* form : {"consistent", "proposed", "conventional"}) {
-    add(all, column, form, rest_strategy, {0.5, 0.25, 0.2, 0.1, 0.05});
+    if (form != consistent_form) add(all, column, form, rest_strategy, {0.5, 0.25, 0.2, 0.1, 0.05});
     add(all, column, form, paper_strategy, {0.5, 0.2});
   }
   add(all, foundation, consistent_form, paper_strategy, {0.5, 0.2});

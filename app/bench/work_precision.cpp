@@ -1,6 +1,7 @@
 #include "app/bench/work_precision.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
@@ -97,7 +98,12 @@ WorkPrecision measure_work_precision(Bench& bench) {
     m.seconds.push_back(r.seconds), m.settled.push_back(r.settled);
     return true;
   };
+  std::vector<std::string> too_late;
   for (const Plan& plan : plans(quick)) {
+    if (time_is_up()) {
+      too_late.push_back(name_of(plan));
+      continue;
+    }
     const Case scene = read(bench, plan.scene.file, plan.overrides());
     const Simulation trial(scene);
     if (const auto n = static_cast<std::int64_t>(trial.model().particles.size());
@@ -116,6 +122,9 @@ WorkPrecision measure_work_precision(Bench& bench) {
     bench.tell(fmt::format("{}: error {:.3g} % in {:.3g} s", name_of(plan), 100 * all.back().run.error,
                            all.back().run.seconds));
   }
+  if (!too_late.empty())
+    bench.leave_out(fmt::format("{} runs ({})", too_late.size(), fmt::join(too_late, "; ")),
+                    "the time was up");
   for (int round = 0; round < 2; ++round)  // again, in turns
     for (Measured& m : all)
       if (m.run.seconds < worth_repeating(quick) &&

@@ -47,6 +47,17 @@ ChartSeries series_of(std::vector<WorkPoint> points, std::size_t form, std::size
   return series;
 }
 
+/// Room for the values on a logarithmic axis, a decade at least, so that it has labels.
+ValueRange range_of(const std::vector<ChartSeries>& all, std::vector<double> ChartSeries::*coordinate) {
+  double low = never, high = 0;
+  for (const ChartSeries& series : all)
+    for (double value : series.*coordinate)
+      if (value > 0 && value < never) low = std::min(low, value), high = std::max(high, value);
+  if (high == 0) return {0.1, 1};
+  const double margin = std::max(1.4, std::sqrt(10 * low / high));
+  return {low / margin, high * margin};
+}
+
 Chart chart_of(const WorkPrecision& work, const std::string& scene) {
   const auto forms = distinct(work.points, [](const WorkPoint& p) { return p.form; });
   const auto strategies = distinct(work.points, [](const WorkPoint& p) { return p.strategy; });
@@ -63,6 +74,8 @@ Chart chart_of(const WorkPrecision& work, const std::string& scene) {
           points.push_back(p);
       if (!points.empty()) chart.series.push_back(series_of(points, f, s));
     }
+  chart.x.range = range_of(chart.series, &ChartSeries::x);
+  chart.y.range = range_of(chart.series, &ChartSeries::y);
   return chart;
 }
 
