@@ -44,15 +44,18 @@ const std::vector<Scene>& scenes() {
   constexpr double column = std::numbers::pi * 1.2 / 10;
   static const std::vector<Scene> all = {
       {"column", "verification/column.toml", true, column},
-      {"foundation", "foundation.toml", true, column},
-      {"embankment", "embankment.toml", false, 0.22},
+      {"foundation", "foundation.toml", true, column, {}, 4, "foundation_fast.toml"},
+      {"embankment", "embankment.toml", false, 0.22, {}, 4, "embankment_fast.toml"},
       // A thousand times as stiff, it strains as little as finite elements assume, at the same stress.
       {"stiff embankment", "embankment.toml", false, 0.22, {"soil.0.youngs_modulus=15e9"}, 0.13},
   };
   return all;
 }
 
+std::string Plan::file() const { return strategy == fast_strategy ? scene.fast_file : scene.file; }
+
 std::vector<std::string> Plan::overrides() const {
+  if (strategy == fast_strategy) return {fmt::format("particles.spacing={:.17g}", spacing)};
   std::vector<std::string> all = strategy_overrides(scene, strategy, spacing);
   all.insert(all.end(), scene.overrides.begin(), scene.overrides.end());
   all.push_back("formulation.motion=" + (plain ? "proposed" : form));
@@ -72,12 +75,16 @@ std::vector<Plan> plans(bool quick) {
     }
     add(all, column, consistent_form, refresh_strategy, {0.2});
     add(all, embankment, consistent_form, rest_strategy, {0.4});
+    for (const Scene& scene : {foundation, embankment})
+      add(all, scene, consistent_form, fast_strategy, {0.5});
     return all;
   }
   add(all, column, consistent_form, refresh_strategy, {0.2});
   add(all, column, consistent_form, rest_strategy, {0.2});
   add(all, foundation, consistent_form, rest_strategy, {0.5, 0.25, 0.2, 10. / 60});
   add(all, embankment, consistent_form, rest_strategy, {0.4, 0.2});
+  add(all, foundation, consistent_form, fast_strategy, {1, 0.5, 0.25});
+  add(all, embankment, consistent_form, fast_strategy, {0.8, 0.4, 0.2});
   add(all, foundation, plain_form, paper_strategy, {0.2});
   add(all, embankment, plain_form, paper_strategy, {0.2});
   add(all, stiff, consistent_form, rest_strategy, {0.4, 0.2});

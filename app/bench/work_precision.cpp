@@ -104,7 +104,11 @@ WorkPrecision measure_work_precision(Bench& bench) {
       too_late.push_back(name_of(plan));
       continue;
     }
-    const Case scene = read(bench, plan.scene.file, plan.overrides());
+    if (!std::filesystem::exists(bench.options().cases / plan.file())) {
+      bench.leave_out(name_of(plan), "there is no " + (bench.options().cases / plan.file()).string());
+      continue;
+    }
+    const Case scene = read(bench, plan.file(), plan.overrides());
     const Simulation trial(scene);
     if (const auto n = static_cast<std::int64_t>(trial.model().particles.size());
         n > bench.options().particles) {

@@ -121,9 +121,9 @@ StudySection show_work_precision(const WorkPrecision& work, const Bench& bench) 
            "itself at equilibrium; one that has no such stop only until its error came within 5 % of its "
            "last value and stayed there. In the table of finite elements the spacing is the length of an "
            "edge, and particles are unknowns. The plain loops with C = 0.2, ξ = 0.002 are the paper's "
-           "procedure; the consistent form with them is the foundation and the embankment as shipped. Run "
-           "times: the median of several runs, which take turns, and half the range from the fastest to "
-           "the slowest."},
+           "procedure; the consistent form with them is the foundation and the embankment as shipped. The "
+           "fast cases are shipped, too, made to come to rest soonest. Run times: the median of several "
+           "runs, which take turns, and half the range from the fastest to the slowest."},
       .tables = {},
       .pictures = {{.file = "work_precision.png",
                     .description = "Error over run time, one chart per scene, logarithmic axes",
