@@ -41,7 +41,10 @@ class Expectation {
 
  private:
   /// Runs that stop at rest do so long before their end.
-  static double share(const Plan& plan) { return plan.strategy == paper_strategy ? 1 : 0.4; }
+  static double share(const Plan& plan) {
+    if (plan.strategy == fast_strategy) return 0.1;
+    return plan.strategy == paper_strategy ? 1 : 0.4;
+  }
   std::map<std::string, double> per_particle_step_;
 };
 
