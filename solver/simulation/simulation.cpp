@@ -36,10 +36,10 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
 
 }  // namespace
 
-Simulation::Simulation(const Case& scene)
+Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
-      dynamics_(make_dynamics(scene.formulation, model_)),
+      dynamics_(dynamics(scene.formulation, model_)),
       dt_(porosph::time_step(scene, model_)),
       last_step_(std::llround(scene.time.end / dt_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
