@@ -86,7 +86,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     outcome.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
       outcome.status = RunStatus::unstable;
-      outcome.message = *s.instability();
+      outcome.message = s.instability()->message;
       break;
     }
     record(frames.due(s.step()), rows.due(s.step()));

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "solver/monitor/energy.hpp"
-#include "solver/monitor/instability.hpp"
 #include "solver/simulation/leapfrog.hpp"
 
 namespace porosph {
@@ -66,7 +65,8 @@ void Simulation::drift() {
     p.velocity[i] = (first ? first_kick : kick)(p.velocity[i], accelerations_[i], c, dt);
     p.position[i] += dt * p.velocity[i];
     if (wet) p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
-    runaway = runaway || !(p.velocity[i].squaredNorm() < model_.wave_speed * model_.wave_speed);
+    runaway = runaway || !(p.velocity[i].squaredNorm() < model_.wave_speed * model_.wave_speed) ||
+              !(p.density[i] > 0);
   }
   runaway_ = runaway;
   if (runaway) instability_ = find_runaway(model_, time() + dt);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/monitor/instability.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/simulation/probe.hpp"
 
@@ -45,7 +46,7 @@ class Simulation {
   Energy energy();
 
   /// What went wrong, where, and what usually causes it; empty while all is well.
-  const std::optional<std::string>& instability() const { return instability_; }
+  const std::optional<Breakdown>& instability() const { return instability_; }
   /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
   bool showable() const { return !runaway_; }
   /// Looks for particles that have left the body (costs a neighbour search).
@@ -64,7 +65,7 @@ class Simulation {
   std::vector<Vec2> accelerations_;
   bool accelerations_valid_ = false;
   std::int64_t bodies_at_start_ = 0;
-  std::optional<std::string> instability_;
+  std::optional<Breakdown> instability_;
   bool runaway_ = false;
 };
 

@@ -1,0 +1,24 @@
+// The pictures and the page of sweeps.
+#pragma once
+
+#include "solver/sweep/verdict.hpp"
+
+namespace porosph {
+
+/// A sweep and what came of it; empty where it was interrupted.
+struct SweptMap {
+  Sweep sweep;
+  std::vector<std::optional<Verdict>> verdicts;
+  std::vector<bool> usual_x, usual_y;  ///< values that are the case's own
+};
+
+/// Cells coloured by class, with the error or the time of breakdown in them. Throws std::runtime_error as
+/// save_category_map.
+void save_stability_map(const SweptMap& map, const std::filesystem::path& png);
+
+/// index.html in `folder`, over `<sweep's name>/map.png` and `map.csv`; `command` is the line that makes it.
+/// Throws WriteError.
+void write_stability_page(const std::vector<SweptMap>& maps, const std::string& command,
+                          const std::filesystem::path& folder);
+
+}  // namespace porosph
