@@ -17,7 +17,9 @@ constexpr std::array<Colour, stability_classes> colours = {
     {{0, 158, 115}, {240, 228, 66}, {86, 180, 233}, {213, 94, 0}, {60, 20, 80}, {215, 215, 215}}};
 
 std::string percent(double fraction) {
-  return std::isfinite(fraction) ? fmt::format("{:.2g} %", 100 * fraction) : "";
+  if (!std::isfinite(fraction)) return "";
+  return fraction < 0.99 ? fmt::format("{:.2g} %", 100 * fraction)
+                         : (fraction < 10 ? fmt::format("{:.0f} %", 100 * fraction) : "> 1000 %");
 }
 
 std::string seconds(double t) { return fmt::format("{:.2g} s", t); }

@@ -26,6 +26,7 @@ std::string_view cause_name(Cause cause);
 /// What went wrong first.
 struct Breakdown {
   Cause cause = Cause::not_finite;
+  double time = 0;      ///< when it was found [s]
   std::string message;  ///< for people: when, which particle, where, and the usual reason
 };
 
@@ -42,5 +43,15 @@ Bodies find_bodies(std::span<const Vec2> positions, double support);
 
 /// Which particles have left the bodies that were there at first; empty while none has.
 std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies_at_start, double time);
+
+/// Distance of the two particles that are nearest to each other, at most `radius` [m].
+double closest_distance(std::span<const Vec2> positions, double radius);
+
+/// Two particles nearer to each other than `allowed` [m]: the soil between them has been turned inside out.
+std::optional<Breakdown> find_crossing(const Model& model, double allowed, double time);
+
+/// What to say when motion and strain hold `gained` of their energy [-] from nowhere: it names the particle
+/// with most of it.
+Breakdown energy_gain(const Model& model, std::span<const Vec2> velocities, double gained, double time);
 
 }  // namespace porosph

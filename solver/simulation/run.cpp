@@ -8,7 +8,8 @@
 namespace porosph {
 namespace {
 
-constexpr std::int64_t steps_between_balances = 10, steps_between_separation_checks = 200;
+constexpr std::int64_t steps_between_balances = 10, steps_between_energy_checks = 100,
+                       steps_between_searches = 200;
 
 /// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
 /// crosses the body to and fro.
@@ -45,6 +46,36 @@ double energy_growth(const Simulation::Energy& now, double at_start) {
   return at_work > 0 ? (now.total() - at_start) / at_work : 0;
 }
 
+/// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
+/// level that moves: there energy tells nothing.
+bool keeps_energy(const Case& scene) {
+  return !(scene.water.present() && scene.formulation.motion == Motion::conventional);
+}
+
+/// Breakdown that does not show in a single step.
+class Guard {
+ public:
+  Guard(Simulation& s, double energy_at_start)
+      : energy_at_start_(energy_at_start), watches_energy_(keeps_energy(s.scene())) {}
+
+  void look(Simulation& s) {
+    if (s.instability() || s.step() % steps_between_energy_checks != 0) return;
+    if (s.step() % steps_between_searches == 0) s.look_for_breakdown();
+    if (!s.instability() && watches_energy_) weigh_energy(s);
+    if (!s.instability()) s.remember();
+  }
+
+ private:
+  void weigh_energy(Simulation& s) {
+    constexpr double tolerable = 0.5;
+    const double gained = energy_growth(s.energy(), energy_at_start_);
+    if (!(gained <= tolerable)) s.stop(energy_gain(s.model(), s.velocities(), gained, s.time()));
+  }
+
+  double energy_at_start_;
+  bool watches_energy_;
+};
+
 }  // namespace
 
 bool Schedule::due(std::int64_t step) const {
@@ -77,11 +108,12 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
   };
 
   const double energy_at_start = s.energy().total();
+  Guard guard(s, energy_at_start);
   record(true, true);
   while (s.step() < s.last_step()) {
     const auto before = Clock::now();
     s.advance();
-    if (s.step() % steps_between_separation_checks == 0) s.look_for_separation();
+    guard.look(s);
     const bool settled = !s.instability() && equilibrium.reached(s);
     outcome.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
@@ -102,7 +134,12 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     if (outcome.status != RunStatus::completed) break;
   }
   const bool showable = outcome.status != RunStatus::unstable || s.showable();
-  if (showable) record(true, true);
+  if (showable)
+    record(true, true);
+  else if (s.exchange_with_last_good()) {
+    record(framed < s.step(), false);
+    s.exchange_with_last_good();
+  }
   outcome.energy_growth = showable ? energy_growth(s.energy(), energy_at_start) : std::nan("");
   return outcome;
 }

@@ -36,8 +36,8 @@ struct RunOutcome {
   double stepping_seconds = 0;  ///< wall time without what the watch did [s]
 };
 
-/// Advances to the end. The last frame and history row are of the state at which the run ended; a state that
-/// has broken down is not shown.
+/// Advances to the end. The last frame and history row are of the state at which the run ended; in place of a
+/// state that has broken down the last frame is of the last good one, 100 to 200 steps before.
 RunOutcome run(Simulation& simulation, const RunWatch& watch);
 
 /// "time", then "<probe>.<quantity>".

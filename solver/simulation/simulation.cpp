@@ -20,6 +20,7 @@ Simulation::Simulation(const Case& scene)
       last_step_(std::llround(scene.time.end / dt_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
+  closest_at_start_ = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
 }
@@ -72,9 +73,27 @@ void Simulation::drift() {
   if (runaway) instability_ = find_runaway(model_, time() + dt);
 }
 
-void Simulation::look_for_separation() {
+void Simulation::look_for_breakdown() {
+  constexpr double met = 0.25;  // of the smallest distance at the start
+  if (!instability_) instability_ = find_crossing(model_, met * closest_at_start_, time());
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, bodies_at_start_, time());
+}
+
+void Simulation::remember() {
+  good_before_ = std::move(good_);
+  const auto a = accelerations();
+  good_ = State{model_.particles, {a.begin(), a.end()}, step_};
+}
+
+bool Simulation::exchange_with_last_good() {
+  std::optional<State>& good = good_before_ ? good_before_ : good_;
+  if (!good) return false;
+  std::swap(model_.particles, good->particles);
+  std::swap(accelerations_, good->accelerations);
+  std::swap(step_, good->step);
+  accelerations_valid_ = true;
+  return true;
 }
 
 double Simulation::unbalanced_force_ratio() {

@@ -49,8 +49,17 @@ class Simulation {
   const std::optional<Breakdown>& instability() const { return instability_; }
   /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
   bool showable() const { return !runaway_; }
-  /// Looks for particles that have left the body (costs a neighbour search).
-  void look_for_separation();
+  /// Looks for particles that have met or left the body (costs a neighbour search).
+  void look_for_breakdown();
+  /// Ends the simulation for a reason that the caller found.
+  void stop(Breakdown reason) { instability_ = std::move(reason); }
+
+  /// Keeps a copy of the present state as a good one. The last two are kept, as the last may have been good
+  /// only in appearance.
+  void remember();
+  /// Puts the older of the remembered states in the place of the present one, and the present one in its
+  /// place; to be looked at only, not to go on from. Returns false where none is remembered.
+  bool exchange_with_last_good();
 
  private:
   double damping() const;  ///< c_d of eq. (34) [1/s]
@@ -67,6 +76,14 @@ class Simulation {
   std::int64_t bodies_at_start_ = 0;
   std::optional<Breakdown> instability_;
   bool runaway_ = false;
+
+  struct State {
+    Particles particles;
+    std::vector<Vec2> accelerations;
+    std::int64_t step = 0;
+  };
+  std::optional<State> good_, good_before_;
+  double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
 };
 
 /// Largest stable-by-the-CFL-number time step, rounded down so that whole steps reach the end time [s].

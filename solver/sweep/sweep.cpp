@@ -126,15 +126,14 @@ class SweepReader {
       return {text(*table, "label"), texts(*table, "set")};
     }
     const std::string key = text(axis, "key");
+    if (const auto number =
+            item.is_floating_point() || axis.contains("scale") ? item.value<double>() : std::nullopt)
+      return {fmt::format("{}", *number),
+              {fmt::format("{}={}", key, *number * this->number(axis, "scale", 1))}};
     std::ostringstream plain;
     item.visit([&](const auto& it) { plain << it; });
-    std::string label = plain.str();
-    if (const auto word = item.value_exact<std::string>()) label = *word;
-    if (!item.is_number()) return {label, {key + "=" + plain.str()}};
-    const double scaled = *item.value<double>() * number(axis, "scale", 1);
-    return {label,
-            {fmt::format("{}={}", key,
-                         item.is_integer() && !axis.contains("scale") ? label : fmt::format("{}", scaled))}};
+    const auto word = item.value_exact<std::string>();
+    return {word ? *word : plain.str(), {key + "=" + plain.str()}};
   }
 
   fs::path file_;
