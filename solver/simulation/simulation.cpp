@@ -12,10 +12,10 @@ double time_step(const Case& scene, const Model& model) {
   return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
 }
 
-Simulation::Simulation(const Case& scene)
+Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
-      dynamics_(make_dynamics(scene.formulation, model_)),
+      dynamics_(dynamics(scene.formulation, model_)),
       dt_(porosph::time_step(scene, model_)),
       last_step_(std::llround(scene.time.end / dt_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {

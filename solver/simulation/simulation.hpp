@@ -17,7 +17,8 @@ namespace porosph {
 class Simulation {
  public:
   /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
-  explicit Simulation(const Case& scene);
+  /// `dynamics`: another implementation than the case's own, to be compared with it.
+  explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();
