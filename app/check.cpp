@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/simulation/simulation.hpp"
 
@@ -59,6 +60,8 @@ int check_command(const Arguments& arguments) {
   Simulation simulation(read_case(case_file, overrides));
   fmt::print("{} is valid: {}\n", case_file, simulation.scene().title);
   print_model(simulation);
+  std::fflush(stdout);
+  warn_of_known_failures(simulation.scene());
   const double particles = static_cast<double>(simulation.model().particles.size());
   fmt::print("{:18}about {:.0f} MB\n", "memory", particles * 1.2e3 / 1e6 + 10);
   const double per_step = seconds_per_step(simulation);

@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/progress.hpp"
 #include "app/summarise.hpp"
+#include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/output/fields.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -129,6 +130,7 @@ int run_command(const Arguments& arguments) {
   Simulation simulation(read_case(options->case_file, options->overrides));
   omp_set_num_threads(options->threads > 0 ? options->threads
                                            : useful_threads(simulation.model().particles.size()));
+  warn_of_known_failures(simulation.scene());
   Results results(*options, simulation);
   if (!options->quiet)
     fmt::print("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,

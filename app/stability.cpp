@@ -87,7 +87,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "runs at a time, each on one core")("restart", "computes again what is there")(
       "quiet", "say nothing unless something is wrong")(
       "out", po::value(&folder)->value_name("DIR")->default_value("results/stability"),
-      "folder for index.html and <sweep>/map.csv, map.png; runs that are there already are kept");
+      "folder for index.html and <sweep>.csv, <sweep>.png; runs that are there already are kept");
   po::positional_options_description positional;
   positional.add("sweep", -1);
   po::variables_map values;
@@ -126,13 +126,13 @@ ErrorMeasure measure_of(SweepReference reference, const Case& scene) {
   return exact_measure(scene);
 }
 
-/// Runs a sweep into its folder, a row of map.csv as soon as a run is finished.
+/// Runs a sweep into its folder, a row of its table as soon as a run is finished.
 class SweepFolder {
  public:
   SweepFolder(const Sweep& sweep, const Options& options)
       : sweep_(sweep),
         options_(options),
-        table_(options.folder / sweep.name / "map.csv"),
+        table_(options.folder / (sweep.name + ".csv")),
         known_(rows_there()) {
     writer_.emplace(table_, known_);
   }
@@ -210,15 +210,15 @@ int stability_command(const Arguments& arguments) {
     }
 #ifdef POROSPH_HAS_VTK
     maps.push_back({sweep, verdicts, usual_values(sweep, sweep.x), usual_values(sweep, sweep.y)});
-    save_stability_map(maps.back(), options->folder / sweep.name / "map.png");
+    save_stability_map(maps.back(), options->folder / (sweep.name + ".png"));
 #endif
   }
 #ifdef POROSPH_HAS_VTK
-  write_stability_page(maps, options->command, options->folder);
+  write_stability_study(maps, options->command, options->folder);
   if (!options->quiet) fmt::print("{}\n", (options->folder / "index.html").string());
 #else
   if (!options->quiet)
-    fmt::print("{}: map.csv of each sweep; built without VTK, so no pictures\n", options->folder.string());
+    fmt::print("{}: a table of each sweep; built without VTK, so no pictures\n", options->folder.string());
 #endif
   return Exit::done;
 }

@@ -8,6 +8,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/fem/solve.hpp"
+#include "solver/model/water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 namespace porosph {
@@ -19,7 +20,7 @@ constexpr double spacings_to_corners = 2.5;
 Case seen_by_fem(const Case& scene) {
   Case physics;
   physics.soils = scene.soils;
-  physics.water = scene.water;
+  physics.water = at_rest_from(scene.water, scene.time.end);
   physics.boundaries = scene.boundaries;
   physics.loading = {.gravity = scene.loading.gravity, .gravity_applied = scene.loading.gravity_applied};
   physics.particles.spacing = physics.time.end = 1;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "render/category_map.hpp"
-#include "render/report/html.hpp"
-#include "vtk_io/run_folder/atomic_file.hpp"
+#include "render/report/study.hpp"
 
 namespace porosph {
 namespace {
@@ -79,31 +79,45 @@ std::string counts(const SweptMap& map) {
   return text;
 }
 
-std::string table_of(const SweptMap& map) {
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+
+/// Every run that did not end accurate.
+StudyTable failures_of(const SweptMap& map) {
   const Sweep& sweep = map.sweep;
-  std::vector<std::vector<std::string>> rows = {
-      {sweep.x.title + (sweep.y.title.empty() ? "" : " · " + sweep.y.title), "class", "error",
-       "forces out of balance", "time", "steps", "first cause"}};
-  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; };
+  StudyTable table{.caption = "",
+                   .rows = {{sweep.x.title + (sweep.y.title.empty() ? "" : " · " + sweep.y.title), "class",
+                             "error", "forces out of balance", "until", "steps", "first cause"}},
+                   .numbers = false};
   for (std::size_t i = 0; i < map.verdicts.size(); ++i) {
     const auto& v = map.verdicts[i];
-    if (!v) continue;
+    if (!v || v->outcome == StabilityClass::accurate) continue;
     const std::string y = sweep.y.values[i / sweep.x.values.size()].label;
-    rows.push_back({sweep.x.values[i % sweep.x.values.size()].label + (y.empty() ? "" : " · " + y),
-                    std::string(class_name(v->outcome)), percent(v->error), number(v->unbalanced),
-                    number(v->time) + " s", fmt::to_string(v->steps), v->message});
+    table.rows.push_back({sweep.x.values[i % sweep.x.values.size()].label + (y.empty() ? "" : " · " + y),
+                          std::string(class_name(v->outcome)), percent(v->error), number(v->unbalanced),
+                          number(v->time) + " s", fmt::to_string(v->steps), v->message});
   }
-  return html::table(rows, false);
+  if (table.rows.size() > 1) table.caption = "Runs that are not accurate:";
+  return table;
 }
 
-std::string section_of(const SweptMap& map) {
-  const std::string folder = map.sweep.name;
-  return html::section(
-      map.sweep.title,
-      html::figure(folder + "/map.png", map.sweep.title + ": " + counts(map), counts(map)) +
-          fmt::format(
-              "<details><summary>All {} runs (<a href=\"{}/map.csv\">map.csv</a>)</summary>\n{}</details>\n",
-              map.verdicts.size(), html::escaped(folder), table_of(map)));
+StudySection section_of(const SweptMap& map) {
+  StudySection section{.heading = map.sweep.title,
+                       .paragraphs = {counts(map) + "."},
+                       .tables = {},
+                       .pictures = {{map.sweep.name + ".png", map.sweep.title + ": " + counts(map), ""}}};
+  if (StudyTable table = failures_of(map); table.rows.size() > 1) section.tables.push_back(std::move(table));
+  return section;
+}
+
+/// What the folder's study has beside these sections.
+Study study_there(const std::filesystem::path& folder, const std::vector<StudySection>& fresh) {
+  Study study;
+  if (is_study(folder)) study = read_study(folder);
+  std::erase_if(study.sections, [&](const StudySection& old) {
+    return std::any_of(fresh.begin(), fresh.end(),
+                       [&](const StudySection& s) { return s.heading == old.heading; });
+  });
+  return study;
 }
 
 }  // namespace
@@ -126,13 +140,20 @@ void save_stability_map(const SweptMap& map, const std::filesystem::path& png) {
   save_category_map(picture, png);
 }
 
-void write_stability_page(const std::vector<SweptMap>& maps, const std::string& command,
-                          const std::filesystem::path& folder) {
-  std::string body =
-      "<h1>Stability maps</h1>\n<p class=\"lead\">Each cell is a run, classed by how it ended.</p>\n";
-  for (const SweptMap& map : maps) body += section_of(map);
-  body += html::section("How it was made", "<pre>" + html::escaped(command) + "</pre>\n");
-  write_file(folder / "index.html", html::page("Stability maps", body));
+void write_stability_study(const std::vector<SweptMap>& maps, const std::string& command,
+                           const std::filesystem::path& folder) {
+  std::vector<StudySection> fresh;
+  for (const SweptMap& map : maps) fresh.push_back(section_of(map));
+  Study study = study_there(folder, fresh);
+  study.title = "Stability maps";
+  study.lead = "Each cell is a run, coloured by how it ended.";
+  study.sections.insert(study.sections.end(), fresh.begin(), fresh.end());
+  for (const SweptMap& map : maps) {
+    std::erase(study.files, map.sweep.name + ".csv");
+    study.files.push_back(map.sweep.name + ".csv");
+  }
+  study.command += (study.command.empty() ? "" : "\n") + command;
+  write_study(study, folder);
 }
 
 }  // namespace porosph

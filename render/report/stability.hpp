@@ -16,9 +16,10 @@ struct SweptMap {
 /// save_category_map.
 void save_stability_map(const SweptMap& map, const std::filesystem::path& png);
 
-/// index.html in `folder`, over `<sweep's name>/map.png` and `map.csv`; `command` is the line that makes it.
-/// Throws WriteError.
-void write_stability_page(const std::vector<SweptMap>& maps, const std::string& command,
-                          const std::filesystem::path& folder);
+/// index.html and study.json in `folder`, over `<sweep's name>.png` and `.csv`, which are there already.
+/// Sections of other sweeps that the folder's study has are kept. `command` is the line that makes it.
+/// Throws ReadError, WriteError.
+void write_stability_study(const std::vector<SweptMap>& maps, const std::string& command,
+                           const std::filesystem::path& folder);
 
 }  // namespace porosph

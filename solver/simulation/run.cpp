@@ -19,11 +19,12 @@ class Equilibrium {
     Vec2 low = s.model().particles.position.front(), high = low;
     for (const Vec2& p : s.model().particles.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
+    if (!s.scene().water.level_over_time.empty()) since_ = s.scene().water.level_over_time.back().x();
   }
 
   bool reached(Simulation& s) {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
-    if (s.unbalanced_force_ratio() >= limit_) since_ = s.time();
+    if (s.unbalanced_force_ratio() >= limit_) since_ = std::max(since_, s.time());
     return s.time() - since_ >= needed_;
   }
 
@@ -49,7 +50,8 @@ double energy_growth(const Simulation::Energy& now, double at_start) {
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
 /// level that moves: there energy tells nothing.
 bool keeps_energy(const Case& scene) {
-  return !(scene.water.present() && scene.formulation.motion == Motion::conventional);
+  return scene.water.level_over_time.empty() &&
+         !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 
 /// Breakdown that does not show in a single step.

@@ -60,6 +60,7 @@ void Simulation::drift() {
   Particles& p = model_.particles;
   const double c = damping(), dt = dt_;
   const bool first = step_ == 0, wet = model_.water.present();
+  model_.water.set_time(time() + dt);
   bool runaway = false;
 #pragma omp parallel for schedule(static) reduction(|| : runaway)
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -70,7 +71,16 @@ void Simulation::drift() {
               !(p.density[i] > 0);
   }
   runaway_ = runaway;
-  if (runaway) instability_ = find_runaway(model_, time() + dt);
+  if (runaway) name_breakdown(time() + dt);
+}
+
+/// What flies off is fast in the end, but that it left is what went wrong first.
+void Simulation::name_breakdown(double time) {
+  instability_ = find_runaway(model_, time);
+  if (!scene_.stop.on_separation || instability_->cause != Cause::too_fast) return;
+  for (const Vec2& x : model_.particles.position)
+    if (!x.allFinite()) return;
+  if (auto separation = find_separation(model_, bodies_at_start_, time)) instability_ = std::move(separation);
 }
 
 void Simulation::look_for_breakdown() {

@@ -65,6 +65,7 @@ class Simulation {
  private:
   double damping() const;  ///< c_d of eq. (34) [1/s]
   void drift();
+  void name_breakdown(double time);
 
   Case scene_;
   Model model_;

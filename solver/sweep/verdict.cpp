@@ -47,7 +47,9 @@ ErrorMeasure exact_measure(const Case& scene) {
 
 ErrorMeasure weight_measure(const Case& scene) {
   if (!scene.loading.gravity_applied) throw std::runtime_error("weight_above needs gravity");
-  return [scene](const Simulation& s) {
+  Case at_end = scene;
+  at_end.water = at_rest_from(scene.water, scene.time.end);
+  return [scene = at_end](const Simulation& s) {
     return vertical_stress_error(s, [&](const Vec2& x) { return k0_stress(scene, x, 0).yy; });
   };
 }

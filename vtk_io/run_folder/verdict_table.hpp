@@ -1,4 +1,4 @@
-// map.csv: the verdicts of a sweep, a row as soon as a run is finished.
+// <sweep>.csv: the verdicts of a sweep, a row as soon as a run is finished.
 #pragma once
 
 #include <filesystem>
