@@ -71,7 +71,7 @@ class Subject {
     into["geometry made anew"].push_back(once * first_geometry_);
     simulation_->accelerations();  // not part of the watching: the next step needs them anyway
     into["monitoring"].push_back(once * timed([&] {
-                                          simulation_->look_for_separation();
+                                          simulation_->look_for_breakdown();
                                           simulation_->unbalanced_force_ratio();
                                         }).cpu);
     into["frame written"].push_back(

@@ -64,7 +64,7 @@ struct Run {
       for (std::int64_t i = 0; i < steps; ++i) simulation->advance();
     });
     if (simulation->instability())
-      throw std::runtime_error(contender.name + ": " + *simulation->instability());
+      throw std::runtime_error(contender.name + ": " + simulation->instability()->message);
     rates[threads].push_back(particles() * static_cast<double>(steps) / t.of(threads));
     if (threads == 1) step_seconds = t.cpu / static_cast<double>(steps);
     omp_set_num_threads(1);
