@@ -94,9 +94,11 @@ std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies
                                               bodies.body.begin());
   return Breakdown{
       Cause::separated, time,
-      fmt::format("at {:.6g} s {} and {} more have left the soil body, at {}; with water above the ground "
-                  "the usual cause is the conventional formulation (formulation.motion)",
-                  time, name_of(p, first), size[thrown] - 1, place(p.position[first]))};
+      fmt::format(
+          "at {:.6g} s {} and {} more have left the soil body, at {}; the usual causes are, with water "
+          "above the ground, the conventional formulation (formulation.motion), else a time step that "
+          "is too large (time.courant)",
+          time, name_of(p, first), size[thrown] - 1, place(p.position[first]))};
 }
 
 double closest_distance(std::span<const Vec2> positions, double radius) {
