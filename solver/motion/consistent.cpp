@@ -30,12 +30,11 @@ Vec2 image_of_velocity(const Wall& wall, const Vec2& v) {
   return wall.kind == BoundaryKind::fixed ? Vec2(-v) : Vec2(wall.reflection() * v);
 }
 
-double largest_rho_c(const Model& model) {
-  double largest = 0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    largest = std::max(largest, std::sqrt(model.soils[model.particles.soil[i]].constrained_modulus() *
-                                          model.particles.density[i]));
-  return largest;
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too far
+/// in a step, and of the fastest wave, which sets the step.
+double controlled_rho_c(const Model& model) {
+  const auto& density = model.particles.density;
+  return *std::min_element(density.begin(), density.end()) * model.wave_speed;
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
     : model_(model),
       formulation_(formulation),
       kernel_(model.smoothing_length),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) *
+      zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
                              model.smoothing_length) {}
 
 void ConsistentDynamics::prepare() {

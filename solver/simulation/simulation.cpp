@@ -74,13 +74,11 @@ void Simulation::drift() {
   if (runaway) name_breakdown(time() + dt);
 }
 
-/// What flies off is fast in the end, but that it left is what went wrong first.
+/// What the conventional form throws off is fast in the end, but that it left is what went wrong first.
 void Simulation::name_breakdown(double time) {
   instability_ = find_runaway(model_, time);
-  constexpr double largest_courant = 1;  // beyond, what is fast is so by the time step
-  if (!scene_.stop.on_separation || instability_->cause != Cause::too_fast ||
-      scene_.time.courant > largest_courant)
-    return;
+  const bool throws_off = scene_.formulation.motion == Motion::conventional && scene_.stop.on_separation;
+  if (!throws_off || instability_->cause != Cause::too_fast) return;
   for (const Vec2& x : model_.particles.position)
     if (!x.allFinite()) return;
   if (auto separation = find_separation(model_, bodies_at_start_, time)) instability_ = std::move(separation);
