@@ -51,8 +51,9 @@ struct WaterStretch {
   double level = 0;                      ///< y of the free surface [m]
 };
 struct WaterCase {
-  double unit_weight = 9810;  ///< gamma_w [N/m3]
-  std::vector<WaterStretch> stretches;
+  double unit_weight = 9810;            ///< gamma_w [N/m3]
+  std::vector<WaterStretch> stretches;  ///< at t = 0
+  std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
   bool present() const { return !stretches.empty(); }
 };
 

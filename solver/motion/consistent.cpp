@@ -18,12 +18,11 @@ void resize(PlaneTensors& t, std::size_t size) {
   for (auto& component : t) component.resize(size);
 }
 
-double largest_rho_c(const Model& model) {
-  double largest = 0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    largest = std::max(largest, std::sqrt(model.soils[model.particles.soil[i]].constrained_modulus() *
-                                          model.particles.density[i]));
-  return largest;
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too
+/// far in a step, and of the fastest wave, which sets the step.
+double controlled_rho_c(const Model& model) {
+  const auto& density = model.particles.density;
+  return *std::min_element(density.begin(), density.end()) * model.wave_speed;
 }
 
 }  // namespace
@@ -33,7 +32,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       formulation_(formulation),
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) * model.smoothing_length),
+      zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
+                             model.smoothing_length),
       zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {
   const auto add = [&](const LinearElastic& soil) {
     shear_modulus_.push_back(soil.shear_modulus);
