@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/simulation/simulation.hpp"
 
@@ -56,7 +57,7 @@ int check_command(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "check CASE.toml [options]",
              "  porosph check cases/foundation.toml --set particles.spacing=0.1\n", values))
     return Exit::done;
-  Simulation simulation(read_case(case_file, overrides));
+  Simulation simulation(read_case(find_case(case_file), overrides));
   fmt::print("{} is valid: {}\n", case_file, simulation.scene().title);
   print_model(simulation);
   const double particles = static_cast<double>(simulation.model().particles.size());

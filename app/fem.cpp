@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/fem/solve.hpp"
@@ -82,7 +83,7 @@ int fem_command(const Arguments& arguments) {
     return Exit::done;
   if (values.count("edge") > 0 && !(edge > 0 && std::isfinite(edge)))
     throw UsageError(fmt::format("--edge = {}: must be > 0 m", edge));
-  const Case scene = read_case(case_file, overrides);
+  const Case scene = read_case(find_case(case_file), overrides);
   const fs::path folder =
       out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);
   const FemSolution solution = solve_fem(scene, mesh_case(scene, edge > 0 ? edge : usual_edge(scene)));

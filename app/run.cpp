@@ -9,8 +9,10 @@
 
 #include "app/command.hpp"
 #include "app/progress.hpp"
+#include "app/shipped_cases.hpp"
 #include "app/summarise.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/output/boundary_frame.hpp"
 #include "solver/output/fields.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/history_csv.hpp"
@@ -59,7 +61,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
              "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n",
              values))
     return std::nullopt;
-  o.case_file = case_file;
+  o.case_file = find_case(case_file);
   o.folder =
       folder.empty() ? std::filesystem::path("results") / o.case_file.stem() : std::filesystem::path(folder);
   o.frames = values.count("no-frames") == 0;
@@ -80,13 +82,19 @@ class Results {
   Results(const Options& options, const Simulation& simulation)
       : folder_(options.folder), history_(prepared(options.folder, simulation), history_columns(simulation)) {
 #ifdef POROSPH_HAS_VTK
-    if (options.frames) series_.emplace(folder_);
+    const OutputCase& output = simulation.scene().output;
+    if (options.frames)
+      series_.emplace(folder_,
+                      SeriesOptions{output.format, output.compression, script_scene(simulation.scene())});
 #endif
   }
 
   void frame([[maybe_unused]] Simulation& s) {
 #ifdef POROSPH_HAS_VTK
-    if (series_) series_->write(make_frame(s, s.scene().output.fields));
+    if (!series_) return;
+    const OutputCase& output = s.scene().output;
+    series_->write(make_frame(s, output.fields),
+                   output.boundary ? std::optional(make_boundary_frame(s)) : std::nullopt);
 #endif
   }
   void row(const std::vector<double>& values) { history_.append(values); }

@@ -68,6 +68,7 @@ class Fields {
  public:
   virtual ~Fields() = default;
   virtual void number(const Key&, double&, const Range& = {}) = 0;
+  virtual void numbers(const Key&, std::vector<double>&, const Range&) = 0;  ///< each in the range
   virtual void integer(const Key&, int&, const Range&) = 0;
   virtual void flag(const Key&, bool&) = 0;
   virtual void text(const Key&, std::string&) = 0;

@@ -1,6 +1,10 @@
 #include "solver/simulation/simulation.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "solver/monitor/energy.hpp"
 #include "solver/monitor/instability.hpp"
@@ -23,6 +27,16 @@ Simulation::Simulation(const Case& scene)
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
   if (scene.stop.on_separation)
     bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
+}
+
+void Simulation::set_material(const std::string& soil, std::shared_ptr<Material> material) {
+  const auto& soils = scene_.soils;
+  const auto found = std::ranges::find(soils, soil, &SoilCase::name);
+  if (found == soils.end()) throw std::invalid_argument(fmt::format("no soil is called '{}'", soil));
+  if (found->no_tension)
+    throw std::invalid_argument(fmt::format("soil '{}' is without tension: it cannot have a material", soil));
+  materials_.resize(soils.size());
+  materials_[found - soils.begin()] = std::move(material);
 }
 
 double Simulation::damping() const {
@@ -52,7 +66,9 @@ void Simulation::advance() {
   drift();
   accelerations_valid_ = false;
   ++step_;
-  if (!instability_) dynamics_->strain(dt_);
+  if (instability_) return;
+  if (!materials_.empty()) apply_materials(materials_, model_, *dynamics_, dt_);
+  dynamics_->strain(dt_);
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.

@@ -8,6 +8,7 @@
 
 #include "solver/model/model.hpp"
 #include "solver/motion/dynamics.hpp"
+#include "solver/simulation/apply_materials.hpp"
 #include "solver/simulation/probe.hpp"
 
 namespace porosph {
@@ -17,6 +18,10 @@ class Simulation {
  public:
   /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
   explicit Simulation(const Case& scene);
+
+  /// Gives a soil a material other than linear elastic. Throws std::invalid_argument where no soil has that
+  /// name or it is one without tension.
+  void set_material(const std::string& soil, std::shared_ptr<Material> material);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();
@@ -59,6 +64,7 @@ class Simulation {
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
   std::vector<Probe> probes_;
+  Materials materials_;  ///< empty where all soils are linear elastic
   double dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;
