@@ -29,9 +29,9 @@ done
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(--user --map-root-user)
 # The system's own vtk modules would be loaded in place of ParaView's: its modules lie over them, in here only.
-unshare "${as_root[@]}" --mount bash -c '
+PARAVIEW=$unpacked unshare "${as_root[@]}" --mount bash -c '
   mount --bind "$1" "$2"
   shift 2
-  export LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/paraview-5.11
+  export LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/paraview-5.11 PATH="$PARAVIEW/usr/bin:$PATH"
   exec "$@"
 ' paraview "$unpacked$modules" "$modules" env DISPLAY=":$(cat "$number")" "$program" "$@"

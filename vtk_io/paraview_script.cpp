@@ -81,7 +81,7 @@ def show_text(text, view, place, size):
     display.Color = DARK
 
 
-def show_scene(run, view, bounds, size):
+def show_scene(run, view, bounds):
     """Water levels and probes, as the case describes them."""
     for x_from, x_to, level in run["water"]:
         ends = [max(x_from, bounds[0]), level, 0.0], [min(x_to, bounds[1]), level, 0.0]
@@ -89,12 +89,13 @@ def show_scene(run, view, bounds, size):
         line.AmbientColor = line.DiffuseColor = WATER
         line.LineWidth = 3
         line.RenderLinesAsTubes = 0
+    mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     for name, x, y in run["probes"]:
-        probe = Show(Sphere(Center=[x, y, 0.0], Radius=0.8 * size), view)
+        probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
         probe.AmbientColor = probe.DiffuseColor = DARK
         label = Show(Text(Text=name), view)
         label.TextPropMode = "Billboard 3D Text"
-        label.BillboardPosition = [x + size, y + size, 2 * size]
+        label.BillboardPosition = [x + mark, y + mark, 2 * mark]
         label.Color = DARK
         label.FontSize = 16
         label.Bold = 1
@@ -106,12 +107,12 @@ def show_run(run, view):
     reader.UpdatePipeline(reader.TimestepValues[-1] if reader.TimestepValues else 0.0)
     particles = reader
     if run["boundary"]:
-        particles = ExtractBlock(Input=reader, Selectors=["/Root/Block0"])
-        behind = Show(ExtractBlock(Input=reader, Selectors=["/Root/Block1"]), view)
+        particles = ExtractBlock(Input=reader, Selectors=["/Root/particles"])
+        behind = Show(ExtractBlock(Input=reader, Selectors=["/Root/boundary"]), view)
         behind.SetRepresentationType("Points")
         behind.AmbientColor = behind.DiffuseColor = [0.6, 0.6, 0.6]
         behind.PointSize = 3
-        ColorBy(behind, None)
+        behind.ColorArrayName = ["POINTS", ""]
         particles.UpdatePipeline()
     display = Show(particles, view)
     information = particles.GetDataInformation()
@@ -121,7 +122,7 @@ def show_run(run, view):
     display.SetRepresentationType("Point Gaussian")
     display.ShaderPreset = "Plain circle"
     if size > 0:
-        display.GaussianRadius = 0.6 * size  # the particles overlap a little: no gaps
+        display.GaussianRadius = 0.72 * size  # the circles reach the middle of four particles: no gaps
     if run["field"]:
         at = [run["field"], run["component"]] if run["component"] else [run["field"]]
         ColorBy(display, ["POINTS"] + at)
@@ -133,7 +134,7 @@ def show_run(run, view):
         bar.Title = " ".join(at) + run["unit"]
         bar.ComponentTitle = ""
         bar.TitleColor = bar.LabelColor = DARK
-    show_scene(run, view, bounds, size)
+    show_scene(run, view, bounds)
     show_text(run["title"], view, "Upper Center", 16)
     time = Show(AnnotateTimeFilter(Input=reader, Format="t = {time:.3f} s"), view)
     time.WindowLocation = "Upper Left Corner"
@@ -143,7 +144,20 @@ def show_run(run, view):
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
-    return reader, display
+    return reader, display, bounds
+
+
+def look_at(view, bounds):
+    """From the front, all of it, with room for the scalar bar below."""
+    width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
+    aspect = view.ViewSize[0] / view.ViewSize[1]
+    scale = 0.55 * max(width / aspect, height / 0.65) or 1.0
+    centre = [(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2 - 0.12 * scale]
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = centre + [0.0]
+    view.CameraPosition = centre + [width + height]
+    view.CameraViewUp = [0.0, 1.0, 0.0]
+    view.CameraParallelScale = scale
 
 
 def to_last_time(readers):
@@ -163,11 +177,18 @@ def one_range(displays, field):
             display.RescaleTransferFunctionToDataRange(True, False))
 
 
+def start(layout):
+    """A picture's size; in ParaView itself the window has its own."""
+    if PICTURES:
+        layout.SetSize(1600, 900)
+
+
 def finish(layout):
     """A picture where the command line names one; without one pvpython shows a window until it is closed."""
+    RenderAllViews()
     if PICTURES:
-        SaveScreenshot(PICTURES[0], layout, ImageResolution=[1600, 900])
-    elif os.path.basename(sys.executable or "").startswith("pvpython") and os.environ.get("DISPLAY"):
+        SaveScreenshot(PICTURES[0], layout)
+    elif SCRIPTS and sys.argv and sys.argv[0] in SCRIPTS and os.environ.get("DISPLAY"):
         Interact()
 )";
 
@@ -176,11 +197,11 @@ RUN = {run}
 
 RUN["folders"] = [HERE, os.getcwd(), RUN["folder"]]
 view = GetActiveViewOrCreate("RenderView")
-reader, display = show_run(RUN, view)
+start(GetLayout(view))
+reader, display, bounds = show_run(RUN, view)
 to_last_time([reader])
 one_range([display], RUN["field"])
-view.ResetCamera()
-Render()
+look_at(view, bounds)
 finish(GetLayout(view))
 )";
 
@@ -209,14 +230,14 @@ layout = GetLayout(first)
 layout.SplitHorizontal(0, 0.5)
 second = CreateRenderView()
 AssignViewToLayout(second, layout, 2)
+start(layout)
 runs = [run_in(folder) for folder in folders]
 shown = [show_run(run, view) for run, view in zip(runs, [first, second])]
-to_last_time([reader for reader, display in shown])
-one_range([display for reader, display in shown], runs[0]["field"])
+to_last_time([reader for reader, display, bounds in shown])
+one_range([display for reader, display, bounds in shown], runs[0]["field"])
 AddCameraLink(first, second, "both runs")
-first.ResetCamera()
-Render(first)
-Render(second)
+both = list(zip(*[bounds for reader, display, bounds in shown]))
+look_at(first, [min(ends) if i % 2 == 0 else max(ends) for i, ends in enumerate(both)])
 finish(layout)
 )";
 

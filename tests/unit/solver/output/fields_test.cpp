@@ -139,8 +139,7 @@ TEST_CASE("the boundary's particles lie behind its walls", "[output]") {
     CHECK((fixed[i] == 1) == (boundary[i] == 0));
     below += y < 0 && x > 0 && x < 2;
   }
-  CHECK(below ==
-        4 * 3);  // the support is 2 h = 2.4 spacings deep: rows at 0.5, 1.5 and, by rounding down, 2 of them
+  CHECK(below == 4 * 2);  // rows at 0.25 and 0.75 m are within the support of 1.2 m, that at 1.25 m is not
 }
 
 TEST_CASE("frames are also due at given times", "[output]") {
