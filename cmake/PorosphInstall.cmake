@@ -1,5 +1,6 @@
 # cmake --install and cpack: the program with its cases and pages (component runtime), and the libraries for
 # programs of one's own (component development).
+set(CMAKE_INSTALL_DOCDIR share/doc/porosph)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -20,10 +21,10 @@ foreach(shell IN LISTS shells)
   list(APPEND told_files ${file})
   install(FILES ${file} DESTINATION ${${shell}_folder} COMPONENT runtime)
 endforeach()
-set(page ${told}/man/man1/porosph.1)
+set(page ${told}/man/man1/porosph.1.gz)
 add_custom_command(OUTPUT ${page} DEPENDS porosph VERBATIM
                    COMMAND ${CMAKE_COMMAND} -E make_directory ${told}/man/man1
-                   COMMAND porosph man > ${page})
+                   COMMAND porosph man | gzip -9n > ${page})
 add_custom_target(porosph_pages ALL DEPENDS ${told_files} ${page})
 
 install(TARGETS porosph RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
@@ -35,7 +36,6 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 # find_package(Porosph): Porosph::solver and Porosph::run_folder; with COMPONENTS vtk_io Porosph::vtk_io too.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Porosph)
-set(folders solver)
 install(TARGETS porosph_solver porosph_run_folder EXPORT PorosphTargets COMPONENT development)
 install(EXPORT PorosphTargets NAMESPACE Porosph:: DESTINATION ${package_folder} COMPONENT development)
 if(POROSPH_VTK)

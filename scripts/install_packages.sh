@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|paraview
+# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|paraview|package
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
+package=("${release[@]}" dpkg-dev file)  # packs the .deb
 paraview=("${release[@]}" paraview xvfb)  # its python modules: see scripts/paraview.sh
 
 case "${1:-}" in
@@ -13,7 +14,8 @@ case "${1:-}" in
   release) wanted=("${release[@]}") ;;
   tests) wanted=("${tests[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
-  *) echo "usage: $0 compute|release|tests|paraview" >&2; exit 2 ;;
+  package) wanted=("${package[@]}") ;;
+  *) echo "usage: $0 compute|release|tests|paraview|package" >&2; exit 2 ;;
 esac
 
 missing=()

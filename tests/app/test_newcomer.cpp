@@ -77,6 +77,7 @@ TEST_CASE("list names the cases, which run, check and fem understand") {
 TEST_CASE("every subcommand is in completion and manual page with all its options") {
   const Workplace place;
   const std::string man = std::regex_replace(place.porosph("man").out, std::regex(R"(\\-)"), "-");
+  const std::string fish = place.porosph("completion fish").out, zsh = place.porosph("completion zsh").out;
   const std::set<std::string> commands = subcommands(place);
   CHECK(commands.size() >= 10);
   for (const std::string& command : commands) {
@@ -88,10 +89,8 @@ TEST_CASE("every subcommand is in completion and manual page with all its option
       CAPTURE(option);
       CHECK_THAT(man, Contains(".B " + option));
       CHECK_THAT(bash, Contains(option + "\n"));
-      for (const char* shell : {"fish", "zsh"}) {
-        const std::string script = place.porosph(std::string("completion ") + shell).out;
-        CHECK_THAT(script, Contains(shell == std::string("fish") ? "-l " + option.substr(2) : option + "["));
-      }
+      CHECK_THAT(fish, Contains("-l " + option.substr(2)));
+      CHECK_THAT(zsh, Contains(option + "["));
     }
   }
 }
