@@ -128,3 +128,23 @@ TEST_CASE("a wrong subcommand is answered with the one that was meant") {
   CHECK_THAT(place.porosph("rum").err, Contains("did you mean 'run'?"));
   CHECK_THAT(place.porosph("run").err, Contains("a case is missing") && Contains("porosph run CASE.toml"));
 }
+
+TEST_CASE("fields that are written on request can be drawn, and a boundary beside them does not disturb") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  REQUIRE(place
+              .porosph(
+                  "run small.toml --quiet --out run --set output.boundary=true --set output.format=vtu --set "
+                  "output.compression=none --set 'output.fields=[\"PrincipalStress\", \"MeanStress\", "
+                  "\"DeviatoricStress\", \"VonMisesStress\", \"Strain\", \"ExcessStress\"]'")
+              .status == 0);
+  CHECK(std::filesystem::exists(place.folder() / "run/frames/boundary_000000.vtu"));
+  for (const std::string field : {"PrincipalStress:S1", "MeanStress", "DeviatoricStress:XY", "VonMisesStress",
+                                  "Strain:YY", "ExcessStress:YY"}) {
+    CAPTURE(field);
+    const Outcome drawn = place.porosph("render run --out p.png --field " + field);
+    CHECK(drawn.status == 0);
+    CHECK(std::filesystem::file_size(place.folder() / "p.png") > 5000);
+  }
+  CHECK_THAT(place.porosph("render run --field PrincipalStress").err, Contains("PrincipalStress:S1"));
+}

@@ -4,11 +4,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/install_packages.sh package
-cmake --preset portable > /dev/null
-cmake --build --preset portable -j "$(nproc)"
-rm -rf build/portable/packages
-cpack --config build/portable/CPackConfig.cmake -B build/portable/packages > /dev/null
-cd build/portable/packages
+preset=${POROSPH_PRESET:-portable}
+cmake --preset "$preset" > /dev/null
+cmake --build --preset "$preset" -j "$(nproc)"
+rm -rf "build/$preset/packages"
+(cd "build/$preset" && cpack -B packages > packages.log) || { cat "build/$preset/packages.log"; exit 1; }
+cd "build/$preset/packages"
 program=$(echo porosph_*.deb) development=$(echo porosph-dev_*.deb)
 dpkg-deb --field "$program" Package Version Depends
 dpkg-deb --field "$program" Depends | grep -q libvtk9 || { echo "the package does not depend on VTK" >&2; exit 1; }
