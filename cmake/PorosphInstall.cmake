@@ -69,8 +69,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libeigen3-dev, libboost-dev, libfmt-dev, libtomlplusplus-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libvtk9-dev)
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Water-saturated soil with smoothed particle hydrodynamics
- Computes submerged foundations, embankments and slopes, writes particle series for ParaView and draws pictures.")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Water-saturated soil with smoothed particle hydrodynamics: libraries
- For programs that add a material or a case of their own.")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Computes submerged foundations, embankments and slopes, writes particle series for ParaView and draws pictures.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries of Porosph, for programs that add a material of their own.")
 include(CPack)

@@ -2,7 +2,8 @@
 """Runs the shell lines of README.md and docs/*.md as a reader would.
 
 Usage: run_docs.py SOURCE_DIR BUILD_DIR            the blocks marked ```sh, with the program of BUILD_DIR
-       run_docs.py SOURCE_DIR --long [DOCUMENT...] all blocks, in a fresh clone that builds its own
+       run_docs.py SOURCE_DIR BUILD_DIR display    as well those that open windows (see tests/paraview)
+       run_docs.py SOURCE_DIR --long [DOCUMENT...] all blocks but those, in a fresh clone that builds its own
 
 What stands behind sh says what a block needs:
     ```sh            runs in a few seconds
@@ -36,6 +37,17 @@ def check(document):
     return problems
 
 
+def ci_lines(source):
+    """The shell lines of the workflow for GitLab; GitHub's must have the same."""
+    script = (source / "docs/ci/gitlab.yml").read_text().split("  script:\n")[1].split("  artifacts:")[0]
+    return re.findall(r"^    - (.*)$", script, re.M)
+
+
+def check_ci(source):
+    github = (source / "docs/ci/github.yml").read_text()
+    return [f"github.yml lacks: {line}" for line in ci_lines(source) if line not in github]
+
+
 def script(document, marks):
     blocks = [body for mark, body in BLOCK.findall(document.read_text()) if mark in marks]
     return "set -eu -o pipefail\n" + "".join(f"set -x\n{body}\n{{ set +x; }} 2> /dev/null\n" for body in blocks), len(blocks)
@@ -43,12 +55,15 @@ def script(document, marks):
 
 def run(document, marks, folder, path):
     text, blocks = script(document, marks)
-    if blocks == 0:
-        return True
+    return blocks == 0 or shell(f"{document.name}: {blocks} blocks", text, folder, path)
+
+
+def shell(title, text, folder, path):
+    """Whether bash ran the text without a failure; prints what it said if not."""
     environment = {"PATH": path, "HOME": str(folder), "LANG": "C.UTF-8"}
     done = subprocess.run(["bash", "-c", text], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    print(f"{document.name}: {blocks} blocks, {'passed' if done.returncode == 0 else 'FAILED'}", flush=True)
+    print(f"{title}, {'passed' if done.returncode == 0 else 'FAILED'}", flush=True)
     if done.returncode != 0:
         print(done.stdout[-6000:])
     return done.returncode == 0
@@ -64,7 +79,7 @@ def scratch(source, build, folder):
 
 
 def main(source, arguments):
-    problems = [f"{d.name}: {p}" for d in documents(source) for p in check(d)]
+    problems = [f"{d.name}: {p}" for d in documents(source) for p in check(d)] + check_ci(source)
     print("\n".join(problems), end="\n" if problems else "")
     passed = not problems
     if arguments[0] == "--long":
@@ -76,13 +91,19 @@ def main(source, arguments):
             for document in documents(clone):
                 if not wanted or document.name in wanted or document.name == "README.md":
                     passed = run(document, {"", "long"}, clone, path) and passed
+            if not wanted:
+                lines = "set -eux -o pipefail\n" + "\n".join(ci_lines(clone))
+                passed = shell("ci/gitlab.yml", lines, clone, path) and passed
     else:
+        marks = {""} | set(arguments[1:])
         for document in documents(source):
+            if len(marks) > 1 and script(document, marks - {""})[1] == 0:
+                continue
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name)
                 scratch(source, pathlib.Path(arguments[0]).resolve(), folder)
                 path = f"{folder}/build/release/bin:{os.environ['PATH']}"
-                passed = run(document, {""}, folder, path) and passed
+                passed = run(document, marks, folder, path) and passed
     return 0 if passed else 1
 
 

@@ -14,5 +14,5 @@ END
 "$porosph" run cases/foundation.toml "${settings[@]}" --set "$fields" --set output.boundary=true --quiet --out $runs/all
 "$porosph" run cases/foundation.toml "${settings[@]}" --set formulation.motion=proposed --set output.format=vtu \
   --set output.compression=lz4 --quiet --out $runs/usual
-export PVPYTHON=pvpython
-scripts/paraview.sh pvpython tests/paraview/check_run.py $runs/all $runs/usual $runs/pictures
+scripts/paraview.sh env PVPYTHON=pvpython pvpython tests/paraview/check_run.py $runs/all $runs/usual $runs/pictures
+PATH="$PWD/tests/paraview/bin:$PATH" scripts/paraview.sh tests/docs/run_docs.py . "$(dirname "$(dirname "$porosph")")" display
