@@ -60,7 +60,8 @@ def run(document, marks, folder, path):
 
 def shell(title, text, folder, path):
     """Whether bash ran the text without a failure; prints what it said if not."""
-    environment = {"PATH": path, "HOME": str(folder), "LANG": "C.UTF-8"}
+    screen = {name: os.environ[name] for name in ("DISPLAY", "LD_LIBRARY_PATH") if name in os.environ}
+    environment = {"PATH": path, "HOME": str(folder), "LANG": "C.UTF-8", **screen}
     done = subprocess.run(["bash", "-c", text], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     print(f"{title}, {'passed' if done.returncode == 0 else 'FAILED'}", flush=True)

@@ -12,10 +12,11 @@ rm -rf "build/$preset/packages"
 cd "build/$preset/packages"
 program=$(echo porosph_*.deb) development=$(echo porosph-dev_*.deb)
 dpkg-deb --field "$program" Package Version Depends
-dpkg-deb --field "$program" Depends | grep -q libvtk9 || { echo "the package does not depend on VTK" >&2; exit 1; }
+dpkg-deb --contents "$program" > contents.txt
+[[ $(dpkg-deb --field "$program" Depends) == *libvtk9* ]] || { echo "the package does not depend on VTK" >&2; exit 1; }
 for file in usr/bin/porosph usr/share/porosph/cases/foundation.toml usr/share/man/man1/porosph.1.gz \
   usr/share/bash-completion/completions/porosph usr/share/doc/porosph/docs/tutorial.md usr/share/doc/porosph/copyright; do
-  dpkg-deb --contents "$program" | grep -q "\./$file\$" || { echo "$file is missing" >&2; exit 1; }
+  grep -q "\./$file\$" contents.txt || { echo "$file is missing" >&2; exit 1; }
 done
 
 if [ -n "${POROSPH_BARE:-}" ]; then

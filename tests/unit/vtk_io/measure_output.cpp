@@ -42,21 +42,22 @@ struct Way {
 std::vector<Way> ways() {
   const std::vector<std::string> usual = OutputCase{}.fields, few = {"EffectiveStress", "PorePressure"};
   std::vector<std::string> all = usual;
-  for (const std::string& field : optional_fields) all.push_back(field);
+  for (const std::string& field : optional_fields)
+    if (field != "ExcessStress") all.push_back(field);  // it has no theory
   constexpr auto vtp = FrameFormat::poly_data, vtu = FrameFormat::unstructured_grid;
   return {{"`vtp`, `none`, the usual ten fields", usual, {vtp, Compression::none}, {}, {}},
           {"`vtp`, `lz4`, the usual ten fields", usual, {vtp, Compression::lz4}, {}, {}},
           {"`vtp`, `zlib`, the usual ten fields", usual, {vtp, Compression::zlib}, {}, {}},
           {"`vtu`, `zlib`, the usual ten fields", usual, {vtu, Compression::zlib}, {}, {}},
           {"`vtp`, `zlib`, two fields", few, {vtp, Compression::zlib}, {}, {}},
-          {"`vtp`, `zlib`, all sixteen fields", all, {vtp, Compression::zlib}, {}, {}}};
+          {"`vtp`, `zlib`, all but `ExcessStress`", all, {vtp, Compression::zlib}, {}, {}}};
 }
 
 }  // namespace
 
 TEST_CASE("measure what frames cost", "[.measure-output]") {
   omp_set_num_threads(1);
-  Simulation simulation(read_case(std::string(POROSPH_SOURCE_DIR) + "/cases/foundation.toml"));
+  Simulation simulation(read_case(std::string(POROSPH_SOURCE_DIR) + "/cases/embankment.toml"));
   for (int i = 0; i < 400; ++i) simulation.advance();
   const test::TemporaryFolder folder;
   std::vector<Way> all = ways();
@@ -66,6 +67,7 @@ TEST_CASE("measure what frames cost", "[.measure-output]") {
                       for (int i = 0; i < 20; ++i) simulation.advance();
                     }) /
                     20);
+    simulation.accelerations();  // the next step's, which the velocities ask for: no cost of the frame
     for (Way& way : all) {
       Frame frame;
       const auto file = folder / "frame";
