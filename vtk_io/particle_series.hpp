@@ -28,8 +28,8 @@ class SeriesWriter {
   /// Makes `folder` where there is none.
   explicit SeriesWriter(std::filesystem::path folder, SeriesOptions options = {});
 
-  /// Goes on with the series in `folder`, without its frames later than `time` [s].
-  /// Throws ReadError if its .pvd cannot be read.
+  /// Goes on with the series in `folder` after its frame at `time` [s]; later ones are removed.
+  /// Throws ReadError if its .pvd cannot be read or names no such frame.
   static SeriesWriter resume(std::filesystem::path folder, double time, SeriesOptions options = {});
 
   /// Adds a frame, with the particles behind the walls as a second block where they are given. Throws

@@ -56,6 +56,10 @@ class Simulation {
   /// Looks for particles that have left the body (costs a neighbour search).
   void look_for_separation();
 
+  /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
+  /// restored into goes on to the same bits. Throws StateError.
+  void visit(StateArchive& state);
+
  private:
   double damping() const;  ///< c_d of eq. (34) [1/s]
   void drift();

@@ -92,6 +92,7 @@ def main(source, arguments):
             for document in documents(clone):
                 if not wanted or document.name in wanted or document.name == "README.md":
                     passed = run(document, {"", "long"}, clone, path) and passed
+                    subprocess.run(["git", "clean", "-fdxq", "-e", "build"], cwd=clone, check=True)
             if not wanted:
                 lines = "set -eux -o pipefail\n" + "\n".join(ci_lines(clone))
                 passed = shell("ci/gitlab.yml", lines, clone, path) and passed

@@ -4,6 +4,7 @@ set -euo pipefail
 porosph=$(realpath "$1")
 cd "$(dirname "$0")/../.."
 runs=results/paraview
+rm -rf "$runs"
 settings=(--set particles.spacing=0.5 --set time.courant=0.8 --set loading.damping=0.04 --set output.interval=0.5)
 fields=$(tr -d '\n' << 'END'
 output.fields=["Displacement", "Velocity", "EffectiveStress", "TotalStress", "PorePressure", "Density", "Mass",
