@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "app/memory.hpp"
+#include "app/shipped_cases.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
@@ -98,7 +99,7 @@ int check_command(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "check CASE.toml [options]",
              "  porosph check cases/foundation.toml --set particles.spacing=0.1\n", values))
     return Exit::done;
-  const Case scene = read_case(case_file, overrides);
+  const Case scene = read_case(find_case(case_file), overrides);
   check_memory(scene);
   fmt::print("{} is valid: {}\n", case_file, scene.title);
   std::fflush(stdout);

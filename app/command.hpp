@@ -25,13 +25,30 @@ struct Command {
   int (*run)(const Arguments&);
 };
 
+/// All of them, in the order of the overview.
+const std::vector<Command>& all_commands();
+
+/// What --help tells of a subcommand.
+struct OptionHelp {
+  std::string name;     ///< without dashes
+  std::string value;    ///< what follows it, "DIR"; empty for a switch
+  std::string meaning;  ///< one sentence
+};
+struct CommandHelp {
+  std::string usage;  ///< "run CASE.toml [options]"
+  std::string examples;
+  std::vector<OptionHelp> options;
+};
+CommandHelp help_of(const Command& command);
+
 /// The command line is wrong: exit 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Parses the arguments of a subcommand. Prints its help and returns false if that was asked for.
+/// Parses the arguments of a subcommand, which does so before all else. Prints its help and returns false if
+/// that was asked for.
 /// `usage` is what stands after "porosph", `examples` are complete command lines. Throws UsageError.
 bool parse(const Arguments& arguments, const boost::program_options::options_description& options,
            const boost::program_options::positional_options_description& positional, const std::string& usage,
@@ -48,5 +65,9 @@ int report_command(const Arguments& arguments);
 int fem_command(const Arguments& arguments);
 int stability_command(const Arguments& arguments);
 int bench_command(const Arguments& arguments);
+int init_command(const Arguments& arguments);
+int list_command(const Arguments& arguments);
+int completion_command(const Arguments& arguments);
+int man_command(const Arguments& arguments);
 
 }  // namespace porosph::app

@@ -8,6 +8,8 @@
 #include "app/left_out.hpp"
 #include "app/numbers.hpp"
 #include "render/report/comparison.hpp"
+#include "vtk_io/paraview_script.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
 namespace {
@@ -102,9 +104,11 @@ int compare_command(const Arguments& arguments) {
   print(fmt::format("{} against {}", labels[0], labels[1]), c.a_against_b);
   print(labels[0] + " against finite elements", c.a_against_fem);
   print(labels[1] + " against finite elements", c.b_against_fem);
+  write_file(fs::path(o->out) / compare_script,
+             paraview_comparison_script(fs::relative(a.folder, o->out), fs::relative(b.folder, o->out)));
   for (const std::string& file : c.pictures) fmt::print("{}\n", (fs::path(o->out) / file).string());
-  fmt::print("{}\n{}\n", (fs::path(o->out) / "comparison.csv").string(),
-             (fs::path(o->out) / "comparison.json").string());
+  for (const char* file : {"comparison.csv", "comparison.json", compare_script})
+    fmt::print("{}\n", (fs::path(o->out) / file).string());
   return Exit::done;
 }
 

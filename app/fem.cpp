@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/fem/solve.hpp"
@@ -83,7 +84,7 @@ int fem_command(const Arguments& arguments) {
     return Exit::done;
   if (values.count("edge") > 0 && !(edge > 0 && std::isfinite(edge)))
     throw UsageError(fmt::format("--edge = {}: must be > 0 m", edge));
-  Case scene = read_case(case_file, overrides);
+  Case scene = read_case(find_case(case_file), overrides);
   scene.water = at_rest_from(scene.water, scene.time.end);
   const fs::path folder =
       out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);

@@ -4,8 +4,10 @@
 #include <csignal>
 #include <iostream>
 
+#include "app/colour.hpp"
 #include "app/command.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/nearest.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace {
@@ -13,6 +15,8 @@ namespace {
 using namespace porosph::app;
 
 const std::vector<Command> commands = {
+    {"init", "write a case to start from", init_command},
+    {"list", "name the cases that come with the program", list_command},
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
     {"stability", "map where settings keep a case accurate and stable", stability_command},
@@ -23,23 +27,42 @@ const std::vector<Command> commands = {
     {"report", "make a page of pictures and tables of runs", report_command},
     {"bench", "measure speed, and run time against error", bench_command},
 #endif
+    {"completion", "print what a shell needs to complete command lines", completion_command},
+    {"man", "print the manual page", man_command},
 };
 
-void print_overview(std::ostream& out) {
-  out << "Porosph " << POROSPH_VERSION << ": water-saturated soil with smoothed particle hydrodynamics\n\n"
-      << "Usage: porosph SUBCOMMAND ...\n\n";
-  for (const Command& c : commands) out << fmt::format("  {:10} {}\n", c.name, c.summary);
-  out << "\n  porosph SUBCOMMAND --help    options and examples\n  porosph --version\n\n"
-      << "Begin with: porosph run cases/foundation.toml\n";
+void print_overview(std::FILE* stream) {
+  const auto heading = [&](std::string_view text) { return styled(stream, Style::heading, text); };
+  fmt::print(stream, "Porosph {}: water-saturated soil with smoothed particle hydrodynamics\n\n",
+             POROSPH_VERSION);
+  fmt::print(stream, "{} porosph SUBCOMMAND ...\n\n", heading("Usage:"));
+  for (const Command& c : commands) fmt::print(stream, "  {:12} {}\n", c.name, c.summary);
+  fmt::print(stream, "\n  porosph SUBCOMMAND --help    options and examples\n  porosph --version\n");
+  fmt::print(stream,
+             "\n{}\n"
+             "  porosph init my_slope.toml                           a slope, every setting explained\n"
+             "  porosph run my_slope.toml                            computes it into results/my_slope\n",
+             heading("Begin with"));
+#ifdef POROSPH_HAS_VTK
+  fmt::print(stream, "  porosph render results/my_slope --field TotalStress:YY   draws a picture\n");
+#endif
+}
+
+[[noreturn]] void refuse(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& c : commands) names.push_back(c.name);
+  const std::string meant = porosph::nearest(name, names);
+  throw UsageError(fmt::format("'{}' is no subcommand{}; porosph --help lists them", name,
+                               meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant)));
 }
 
 int dispatch(const Arguments& arguments) {
   if (arguments.empty()) {
-    print_overview(std::cerr);
+    print_overview(stderr);
     return Exit::wrong_input;
   }
   if (arguments[0] == "--help" || arguments[0] == "-h") {
-    print_overview(std::cout);
+    print_overview(stdout);
     return Exit::done;
   }
   if (arguments[0] == "--version") {
@@ -48,10 +71,16 @@ int dispatch(const Arguments& arguments) {
   }
   for (const Command& c : commands)
     if (c.name == arguments[0]) return c.run(Arguments(arguments.begin() + 1, arguments.end()));
-  throw UsageError(fmt::format("'{}' is no subcommand; porosph --help lists them", arguments[0]));
+  refuse(arguments[0]);
+}
+
+void tell_error(const std::string& message) {
+  std::cerr << styled(stderr, Style::error, "porosph:") << ' ' << message << '\n';
 }
 
 }  // namespace
+
+const std::vector<Command>& porosph::app::all_commands() { return commands; }
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow further is an error like a full disk
@@ -61,16 +90,16 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << '\n';
     return Exit::wrong_input;
   } catch (const porosph::WriteError& error) {
-    std::cerr << "porosph: " << error.what() << '\n';
+    tell_error(error.what());
     return Exit::file_failure;
   } catch (const porosph::ReadError& error) {
-    std::cerr << "porosph: " << error.what() << '\n';
+    tell_error(error.what());
     return Exit::file_failure;
   } catch (const std::bad_alloc&) {
-    std::cerr << "porosph: not enough memory for this case\n";
+    tell_error("not enough memory for this case");
     return Exit::wrong_input;
   } catch (const std::exception& error) {  // a command line or a case that cannot be computed
-    std::cerr << "porosph: " << error.what() << '\n';
+    tell_error(error.what());
     return Exit::wrong_input;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "app/command.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/output/boundary_frame.hpp"
 #include "solver/output/fields.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
@@ -15,8 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *case_name = "case.toml", *history_name = "history.csv", *summary_name = "summary.json",
-                     *series_name = "particles.pvd", *frames_name = "frames",
-                     *script_name = "open_in_paraview.py";
+                     *series_name = "particles.pvd", *frames_name = "frames";
 
 /// Whether a case file means the same as this text, whatever it looks like.
 bool is_case(const fs::path& file, const std::string& case_text) {
@@ -39,10 +39,14 @@ void remove_results(const fs::path& folder) {
     if (error) throw WriteError(file, error.message());
   };
   remove_checkpoints(folder);
-  for (const char* name : {summary_name, series_name, script_name, history_name}) remove(folder / name);
+  for (const char* name :
+       {summary_name, series_name, "open_in_paraview.py", "compare_in_paraview.py", history_name})
+    remove(folder / name);
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder / frames_name, none))
-    if (entry.path().filename().string().starts_with("particles_")) remove(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder / frames_name, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("particles_") || name.starts_with("boundary_")) remove(entry.path());
+  }
 }
 
 /// Takes the folder for this case, empty of results. The case file comes last: what is in the folder is never
@@ -53,6 +57,12 @@ fs::path taken(const fs::path& folder, const std::string& case_text) {
   write_file(folder / case_name, case_text);
   return folder / history_name;
 }
+
+#ifdef POROSPH_HAS_VTK
+SeriesOptions series_options(const Case& scene) {
+  return {scene.output.format, scene.output.compression, script_scene(scene)};
+}
+#endif
 
 double time_of(std::int64_t step, const Simulation& s) { return static_cast<double>(step) * s.time_step(); }
 
@@ -85,7 +95,7 @@ Results::Results(const fs::path& folder, const Simulation& simulation, [[maybe_u
       case_text_(write_case(simulation.scene())),
       history_(taken(folder, case_text_), history_columns(simulation)) {
 #ifdef POROSPH_HAS_VTK
-  if (frames) series_.emplace(folder_);
+  if (frames) series_.emplace(folder_, series_options(simulation.scene()));
 #endif
 }
 
@@ -99,13 +109,18 @@ Results::Results(const fs::path& folder, const Simulation& simulation, bool fram
     throw UsageError(fmt::format("the run in {} was begun {} frames, and can only be resumed so",
                                  folder_.string(), had_frames ? "with" : "without"));
 #ifdef POROSPH_HAS_VTK
-  if (frames) series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation)));
+  if (frames)
+    series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation),
+                                         series_options(simulation.scene())));
 #endif
 }
 
 void Results::frame([[maybe_unused]] Simulation& s) {
 #ifdef POROSPH_HAS_VTK
-  if (series_) series_->write(make_frame(s, s.scene().output.fields));
+  if (!series_) return;
+  const OutputCase& output = s.scene().output;
+  series_->write(make_frame(s, output.fields),
+                 output.boundary ? std::optional(make_boundary_frame(s)) : std::nullopt);
 #endif
 }
 

@@ -10,6 +10,7 @@
 #include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/results.hpp"
+#include "app/shipped_cases.hpp"
 #include "app/summarise.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
@@ -62,7 +63,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
              "  porosph run cases/foundation.toml --resume\n",
              values))
     return std::nullopt;
-  o.case_file = case_file;
+  o.case_file = find_case(case_file);
   o.folder =
       folder.empty() ? std::filesystem::path("results") / o.case_file.stem() : std::filesystem::path(folder);
   o.frames = values.count("no-frames") == 0;

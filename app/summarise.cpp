@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/simulation/reference_errors.hpp"
 
@@ -72,8 +73,11 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
 
 std::string tell(const Summary& s) {
   static constexpr const char* endings[] = {"completed", "in equilibrium", "unstable", "interrupted"};
-  std::string text = fmt::format("{} at {:.6g} s, {} steps of {:.3g} s", endings[static_cast<int>(s.status)],
-                                 s.time, s.steps, s.time_step);
+  const bool well = s.status == RunStatus::completed || s.status == RunStatus::equilibrium;
+  std::string text =
+      fmt::format("{} at {:.6g} s, {} steps of {:.3g} s",
+                  styled(stdout, well ? Style::good : Style::error, endings[static_cast<int>(s.status)]),
+                  s.time, s.steps, s.time_step);
   if (!s.message.empty()) text += ": " + s.message;
   text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n",
                       s.particles, s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|benchmarks
+# Installs the Debian packages that a job needs and that are missing:
+#   install_packages.sh compute|release|tests|benchmarks|paraview|package
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
@@ -7,13 +8,17 @@ compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-optio
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
 benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
+package=("${release[@]}" dpkg-dev file)  # packs the .deb
+paraview=("${release[@]}" paraview xvfb)  # its python modules: see scripts/paraview.sh
 
 case "${1:-}" in
   compute) wanted=("${compute[@]}") ;;
   release) wanted=("${release[@]}") ;;
   tests) wanted=("${tests[@]}") ;;
   benchmarks) wanted=("${benchmarks[@]}") ;;
-  *) echo "usage: $0 compute|release|tests|benchmarks" >&2; exit 2 ;;
+  paraview) wanted=("${paraview[@]}") ;;
+  package) wanted=("${package[@]}") ;;
+  *) echo "usage: $0 compute|release|tests|benchmarks|paraview|package" >&2; exit 2 ;;
 esac
 
 missing=()

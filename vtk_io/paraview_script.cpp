@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "solver/output/fields.hpp"
+
 namespace porosph {
 namespace {
 
@@ -22,77 +24,254 @@ Colouring colouring_of(const Frame& frame) {
   return {first.name, first.components.empty() ? "" : first.components.front()};
 }
 
-/// A Python string literal: JSON's escapes are also Python's.
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+/// " [Pa]"; empty for a field that is not one of ours.
+std::string unit_of(const std::string& field) {
+  const auto& known = known_fields();
+  const auto found = std::ranges::find(known, field, &FieldDescription::name);
+  return found == known.end() || found->unit == "-" ? "" : fmt::format(" [{}]", found->unit);
 }
 
-constexpr const char* script = R"(# Opens the particles beside this script, coloured:
+/// A Python literal: JSON's escapes, numbers and lists are also Python's.
+std::string python(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+constexpr const char* open_head = R"(# Opens the particles beside this script, ready to look at:
 #     paraview --script=open_in_paraview.py
+#     pvpython open_in_paraview.py picture.png
 # Made for ParaView 5.11 and later.
+)";
+
+constexpr const char* compare_head =
+    R"(# Shows two runs side by side: linked cameras, the same time, one range of colours.
+#     paraview --script=compare_in_paraview.py
+#     pvpython compare_in_paraview.py picture.png
+# Where this script does not name the other run, say which: pvpython compare_in_paraview.py OTHER_RUN, or
+#     OTHER_RUN=../other paraview --script=compare_in_paraview.py
+# Made for ParaView 5.11 and later.
+)";
+
+constexpr const char* common = R"(
+import ast
 import os
 import sys
 
 from paraview.simple import *
 
-SERIES = {series}
-WRITTEN_IN = {folder}
-FIELD = {field}
-COMPONENT = {component}
+SCRIPTS = [s for s in [globals().get("__file__", "")] + sys.argv if s.endswith(".py")]
+HERE = os.path.dirname(os.path.abspath(SCRIPTS[0])) if SCRIPTS else os.getcwd()
+PICTURES = [a for a in sys.argv[1:] if a.endswith(".png")]
+DARK = [0.15, 0.15, 0.15]
+WATER = [0.12, 0.47, 0.71]
 
 
-def series_path():
-    """The series beside this script, wherever the folder has been moved to."""
-    scripts = [globals().get("__file__", "")] + sys.argv
-    folders = [os.path.dirname(os.path.abspath(s)) for s in scripts if s.endswith(".py")]
-    for folder in folders + [os.getcwd(), WRITTEN_IN]:
-        path = os.path.join(folder, SERIES)
+def series_path(run):
+    """The series of a run, wherever its folder has been moved to."""
+    for folder in run["folders"]:
+        path = os.path.join(folder, run["series"])
         if os.path.exists(path):
             return path
-    raise RuntimeError(SERIES + " is not beside this script")
+    raise RuntimeError(run["series"] + " is not beside this script")
 
 
-reader = PVDReader(registrationName=SERIES, FileName=series_path())
-view = GetActiveViewOrCreate("RenderView")
-display = Show(reader, view)
+def show_text(text, view, place, size):
+    display = Show(Text(Text=text), view)
+    display.WindowLocation = place
+    display.FontSize = size
+    display.Color = DARK
 
-times = reader.TimestepValues
-if times:
+
+def show_scene(run, view, bounds):
+    """Water levels and probes, as the case describes them."""
+    for x_from, x_to, level in run["water"]:
+        ends = [max(x_from, bounds[0]), level, 0.0], [min(x_to, bounds[1]), level, 0.0]
+        line = Show(Line(Point1=ends[0], Point2=ends[1], Resolution=1), view)
+        line.AmbientColor = line.DiffuseColor = WATER
+        line.LineWidth = 3
+        line.RenderLinesAsTubes = 0
+    mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    for name, x, y in run["probes"]:
+        probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
+        probe.AmbientColor = probe.DiffuseColor = DARK
+        label = Show(Text(Text=name), view)
+        label.TextPropMode = "Billboard 3D Text"
+        label.BillboardPosition = [x + mark, y + mark, 2 * mark]
+        label.Color = DARK
+        label.FontSize = 16
+        label.Bold = 1
+
+
+def show_run(run, view):
+    """The particles of a run with everything around them; returns reader and representation."""
+    reader = PVDReader(registrationName=run["title"] or run["series"], FileName=series_path(run))
+    reader.UpdatePipeline(reader.TimestepValues[-1] if reader.TimestepValues else 0.0)
+    particles = reader
+    if run["boundary"]:
+        particles = ExtractBlock(Input=reader, Selectors=["/Root/particles"])
+        behind = Show(ExtractBlock(Input=reader, Selectors=["/Root/boundary"]), view)
+        behind.SetRepresentationType("Points")
+        behind.AmbientColor = behind.DiffuseColor = [0.6, 0.6, 0.6]
+        behind.PointSize = 3
+        behind.ColorArrayName = ["POINTS", ""]
+        particles.UpdatePipeline()
+    display = Show(particles, view)
+    information = particles.GetDataInformation()
+    bounds = information.GetBounds()
+    area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
+    size = run["spacing"] or (area / max(information.GetNumberOfPoints(), 1)) ** 0.5
+    display.SetRepresentationType("Point Gaussian")
+    display.ShaderPreset = "Plain circle"
+    if size > 0:
+        display.GaussianRadius = 0.72 * size  # the circles reach the middle of four particles: no gaps
+    if run["field"]:
+        at = [run["field"], run["component"]] if run["component"] else [run["field"]]
+        ColorBy(display, ["POINTS"] + at)
+        display.SetScalarBarVisibility(view, True)
+        bar = GetScalarBar(GetColorTransferFunction(run["field"]), view)
+        bar.Orientation = "Horizontal"
+        bar.WindowLocation = "Lower Center"
+        bar.ScalarBarLength = 0.5
+        bar.Title = " ".join(at) + run["unit"]
+        bar.ComponentTitle = ""
+        bar.TitleColor = bar.LabelColor = DARK
+    show_scene(run, view, bounds)
+    show_text(run["title"], view, "Upper Center", 16)
+    time = Show(AnnotateTimeFilter(Input=reader, Format="t = {time:.3f} s"), view)
+    time.WindowLocation = "Upper Left Corner"
+    time.FontSize = 14
+    time.Color = DARK
+    view.InteractionMode = "2D"
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    return reader, display, bounds
+
+
+def look_at(view, bounds):
+    """From the front, all of it, with room for the scalar bar below."""
+    width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
+    aspect = view.ViewSize[0] / view.ViewSize[1]
+    scale = 0.55 * max(width / aspect, height / 0.65) or 1.0
+    centre = [(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2 - 0.12 * scale]
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = centre + [0.0]
+    view.CameraPosition = centre + [width + height]
+    view.CameraViewUp = [0.0, 1.0, 0.0]
+    view.CameraParallelScale = scale
+
+
+def to_last_time(readers):
     animation = GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()
-    animation.AnimationTime = times[-1]
-    view.ViewTime = times[-1]
+    times = [t for reader in readers for t in reader.TimestepValues]
+    if times:
+        animation.AnimationTime = max(times)
 
-display.SetRepresentationType("Point Gaussian")
-display.ShaderPreset = "Plain circle"
-# The particles fill the area they stand for: half the mean spacing in the bounding box is their radius.
-bounds = reader.GetDataInformation().GetBounds()
-count = max(reader.GetDataInformation().GetNumberOfPoints(), 1)
-area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
-if area > 0:
-    display.GaussianRadius = 0.5 * (area / count) ** 0.5
 
-if FIELD:
-    ColorBy(display, ("POINTS", FIELD, COMPONENT) if COMPONENT else ("POINTS", FIELD))
-    display.RescaleTransferFunctionToDataRange(True, False)
-    display.SetScalarBarVisibility(view, True)
-    bar = GetScalarBar(GetColorTransferFunction(FIELD), view)
-    bar.Orientation = "Horizontal"
-    bar.WindowLocation = "Lower Center"
+def one_range(displays, field):
+    """The colours of all times of all runs; a field that is the same everywhere keeps ParaView's range."""
+    if not field:
+        return
+    for i, display in enumerate(displays):
+        display.RescaleTransferFunctionToDataRangeOverTime() if i == 0 else (
+            display.RescaleTransferFunctionToDataRange(True, False))
 
-view.InteractionMode = "2D"
-view.OrientationAxesVisibility = 0
-view.ResetCamera()
-Render()
+
+def start(layout):
+    """A picture's size; in ParaView itself the window has its own."""
+    if PICTURES:
+        layout.SetSize(1600, 900)
+
+
+def finish(layout):
+    """A picture where the command line names one; without one pvpython shows a window until it is closed."""
+    RenderAllViews()
+    if PICTURES:
+        SaveScreenshot(PICTURES[0], layout)
+    elif SCRIPTS and sys.argv and sys.argv[0] in SCRIPTS and os.environ.get("DISPLAY"):
+        Interact()
+)";
+
+constexpr const char* open_tail = R"(
+RUN = {run}
+
+RUN["folders"] = [HERE, os.getcwd(), RUN["folder"]]
+view = GetActiveViewOrCreate("RenderView")
+start(GetLayout(view))
+reader, display, bounds = show_run(RUN, view)
+to_last_time([reader])
+one_range([display], RUN["field"])
+look_at(view, bounds)
+finish(GetLayout(view))
+)";
+
+constexpr const char* compare_tail = R"(
+FOLDERS = {folders}
+
+
+def run_in(folder):
+    """What open_in_paraview.py says of the run in this folder."""
+    folder = os.path.normpath(os.path.join(HERE, folder))
+    with open(os.path.join(folder, "open_in_paraview.py")) as script:
+        line = next(text for text in script if text.startswith("RUN = "))
+    run = ast.literal_eval(line[len("RUN = "):])
+    run["folders"] = [folder]
+    run["title"] = os.path.basename(folder)
+    return run
+
+
+others = [a for a in sys.argv[1:] if os.path.isdir(a)] + [os.environ.get("OTHER_RUN", "")]
+folders = [folder or os.path.abspath(others[0]) for folder in FOLDERS if folder or others[0]]
+if len(folders) < 2:
+    raise RuntimeError("say which run to compare with: pvpython compare_in_paraview.py OTHER_RUN")
+
+first = GetActiveViewOrCreate("RenderView")
+layout = GetLayout(first)
+layout.SplitHorizontal(0, 0.5)
+second = CreateRenderView()
+AssignViewToLayout(second, layout, 2)
+start(layout)
+runs = [run_in(folder) for folder in folders]
+shown = [show_run(run, view) for run, view in zip(runs, [first, second])]
+to_last_time([reader for reader, display, bounds in shown])
+one_range([display for reader, display, bounds in shown], runs[0]["field"])
+AddCameraLink(first, second, "both runs")
+both = list(zip(*[bounds for reader, display, bounds in shown]))
+look_at(first, [min(ends) if i % 2 == 0 else max(ends) for i, ends in enumerate(both)])
+finish(layout)
 )";
 
 }  // namespace
 
-std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame) {
+ScriptScene script_scene(const Case& scene) {
+  return {scene.title, scene.particles.spacing, scene.output.boundary, scene.probes, scene.water.stretches};
+}
+
+std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
+                            const ScriptScene& scene) {
   const auto [field, component] = colouring_of(frame);
-  return fmt::format(fmt::runtime(script), fmt::arg("series", quoted(pvd)),
-                     fmt::arg("folder", quoted(folder.string())), fmt::arg("field", quoted(field)),
-                     fmt::arg("component", quoted(component)));
+  nlohmann::json run = {{"series", pvd},
+                        {"folder", folder.string()},
+                        {"title", scene.title},
+                        {"spacing", scene.spacing},
+                        {"field", field},
+                        {"component", component},
+                        {"unit", unit_of(field)},
+                        {"boundary", scene.boundary ? 1 : 0},
+                        {"probes", nlohmann::json::array()},
+                        {"water", nlohmann::json::array()}};
+  for (const ProbeCase& probe : scene.probes)
+    run["probes"].push_back({probe.name, probe.position.x(), probe.position.y()});
+  constexpr double far = 1e30;  // JSON has no infinity; the script cuts lines at the particles
+  for (const WaterStretch& s : scene.water)
+    run["water"].push_back({std::max(s.x_from, -far), std::min(s.x_to, far), s.level});
+  return std::string(open_head) + common + fmt::format(fmt::runtime(open_tail), fmt::arg("run", python(run)));
+}
+
+std::string paraview_comparison_script(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return std::string(compare_head) + common +
+         fmt::format(fmt::runtime(compare_tail),
+                     fmt::arg("folders", python({a.generic_string(), b.generic_string()})));
 }
 
 }  // namespace porosph

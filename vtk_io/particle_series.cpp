@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "vtk_io/frame_file.hpp"
-#include "vtk_io/paraview_script.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
@@ -19,22 +18,22 @@ namespace {
 
 constexpr const char* frames_folder = "frames";
 constexpr const char* pvd_name = "particles.pvd";
-constexpr const char* script_name = "open_in_paraview.py";
 
-std::string frame_name(std::size_t number, FrameFormat format) {
-  return fmt::format("{}/particles_{:06}.{}", frames_folder, number,
+std::string frame_name(const char* block, std::size_t number, FrameFormat format) {
+  return fmt::format("{}/{}_{:06}.{}", frames_folder, block, number,
                      format == FrameFormat::poly_data ? "vtp" : "vtu");
 }
 
 bool is_frame(const fs::path& file) {
-  return file.filename().string().starts_with("particles_") &&
+  const auto name = file.filename().string();
+  return (name.starts_with("particles_") || name.starts_with("boundary_")) &&
          (file.extension() == ".vtp" || file.extension() == ".vtu");
 }
 
 }  // namespace
 
 SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
-    : folder_(std::move(folder)), options_(options) {
+    : folder_(std::move(folder)), options_(std::move(options)) {
   make_folder(folder_ / frames_folder);
 }
 
@@ -53,18 +52,24 @@ SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions op
 
 fs::path SeriesWriter::pvd() const { return folder_ / pvd_name; }
 
-void SeriesWriter::write(const Frame& frame) {
+void SeriesWriter::write(const Frame& frame, const std::optional<Frame>& boundary) {
   if (!frames_.empty() && !(frame.time >= frames_.back().time)) {
     throw std::invalid_argument(
         fmt::format("frame: time {} after {} in the series", frame.time, frames_.back().time));
   }
-  const auto name = frame_name(frames_.size(), options_.format);
-  write_frame(folder_ / name, frame, options_);
-  frames_.push_back({frame.time, name});
+  SeriesFrame entry{frame.time, frame_name("particles", frames_.size(), options_.format)};
+  write_frame(folder_ / entry.file, frame, options_);
+  if (boundary) {
+    entry.boundary_file = frame_name("boundary", frames_.size(), options_.format);
+    write_frame(folder_ / entry.boundary_file, *boundary, options_);
+  }
+  frames_.push_back(std::move(entry));
   write_pvd();
   if (frames_.size() == 1) {
     remove_unnamed_frames();
-    write_file(folder_ / script_name, paraview_script(fs::absolute(folder_), pvd_name, frame));
+    write_file(folder_ / open_script,
+               paraview_script(fs::absolute(folder_), pvd_name, frame, options_.scene));
+    write_file(folder_ / compare_script, paraview_comparison_script(".", ""));
   }
 }
 
@@ -74,7 +79,8 @@ void SeriesWriter::remove_unnamed_frames() const {
   std::error_code ignored;  // a file left over does no harm
   for (const auto& entry : fs::directory_iterator(folder_ / frames_folder, ignored)) {
     const auto name = std::string(frames_folder) + "/" + entry.path().filename().string();
-    const bool named = std::ranges::count(frames_, name, &SeriesFrame::file) > 0;
+    const bool named = std::ranges::any_of(
+        frames_, [&](const SeriesFrame& f) { return f.file == name || f.boundary_file == name; });
     if (!named && is_frame(entry.path())) fs::remove(entry.path(), ignored);
   }
 }

@@ -2,27 +2,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "solver/case/case.hpp"
 #include "solver/output/frame.hpp"
+#include "vtk_io/paraview_script.hpp"
 #include "vtk_io/pvd.hpp"
 
 namespace porosph {
 
-enum class FrameFormat {
-  poly_data,          ///< .vtp
-  unstructured_grid,  ///< .vtu
-};
-enum class Compression { none, lz4, zlib };
-
 struct SeriesOptions {
   FrameFormat format = FrameFormat::poly_data;
   Compression compression = Compression::zlib;
+  ScriptScene scene = {};  ///< for the scripts beside the series
 };
 
 /// Writes the frames of one run. After each the .pvd names all of them, so that a running or killed job
 /// opens; frames of an earlier series in the folder that it does not name are removed. Beside them stands
-/// open_in_paraview.py, which shows the series coloured. Every file is complete or not there. All members
+/// open_in_paraview.py, which shows the series coloured, and compare_in_paraview.py, which shows it beside
+/// another. Every file is complete or not there. All members
 /// throw WriteError.
 class SeriesWriter {
  public:
@@ -33,8 +32,9 @@ class SeriesWriter {
   /// Throws ReadError if its .pvd cannot be read or names no such frame.
   static SeriesWriter resume(std::filesystem::path folder, double time, SeriesOptions options = {});
 
-  /// Adds a frame. Throws std::invalid_argument if it is not consistent or earlier than the last.
-  void write(const Frame& frame);
+  /// Adds a frame, with the particles behind the walls as a second block where they are given. Throws
+  /// std::invalid_argument if it is not consistent or earlier than the last.
+  void write(const Frame& frame, const std::optional<Frame>& boundary = {});
 
   const std::vector<SeriesFrame>& frames() const { return frames_; }  ///< written so far
   std::filesystem::path pvd() const;

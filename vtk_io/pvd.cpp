@@ -80,14 +80,20 @@ std::string pvd_text(const std::vector<SeriesFrame>& frames) {
   root->SetAttribute("version", "0.1");
   collection->SetName("Collection");
   root->AddNestedElement(collection);
-  for (const auto& frame : frames) {
+  const auto add = [&](double time, const char* part, const char* name, const std::string& file) {
     vtkNew<vtkXMLDataElement> data_set;
     data_set->SetName("DataSet");
-    data_set->SetAttribute("timestep", fmt::format("{}", frame.time).c_str());
+    data_set->SetAttribute("timestep", fmt::format("{}", time).c_str());
     data_set->SetAttribute("group", "");
-    data_set->SetAttribute("part", "0");
-    data_set->SetAttribute("file", frame.file.c_str());
+    data_set->SetAttribute("part", part);
+    if (*name != '\0') data_set->SetAttribute("name", name);
+    data_set->SetAttribute("file", file.c_str());
     collection->AddNestedElement(data_set);
+  };
+  for (const auto& frame : frames) {
+    const bool alone = frame.boundary_file.empty();
+    add(frame.time, "0", alone ? "" : "particles", frame.file);
+    if (!alone) add(frame.time, "1", "boundary", frame.boundary_file);
   }
   std::ostringstream text;
   text << "<?xml version=\"1.0\"?>\n";
@@ -107,7 +113,12 @@ std::vector<SeriesFrame> read_pvd(const fs::path& file) {
   if (!parser->is_collection) throw ReadError(file, "not a ParaView collection (VTKFile of type Collection)");
   std::vector<SeriesFrame> frames;
   for (auto& attributes : parser->data_sets) {
+    const bool second_block = attributes["part"] == "1";
     auto frame = frame_from(file, std::move(attributes));
+    if (second_block && !frames.empty() && frames.back().time == frame.time) {
+      frames.back().boundary_file = frame.file;
+      continue;
+    }
     if (!frames.empty() && frame.time < frames.back().time) {
       throw ReadError(file, fmt::format("time {} stands after {}", frame.time, frames.back().time));
     }

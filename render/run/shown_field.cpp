@@ -33,9 +33,7 @@ std::vector<double> magnitudes(const std::vector<double>& values, std::size_t wi
   return out;
 }
 
-bool is_stress(const std::string& field) {
-  return field == "EffectiveStress" || field == "TotalStress" || field == "PorePressure";
-}
+bool is_stress(const std::string& field) { return field == "PorePressure" || field.ends_with("Stress"); }
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -61,8 +59,8 @@ std::vector<double> values_of(const Frame& frame, const FieldSelection& selectio
   const auto width = static_cast<std::size_t>(field.width());
   const auto& names = field.components;
   if (selection.component.empty()) {
-    if (width > 3)
-      throw std::runtime_error(fmt::format("field '{0}' is a tensor: choose a component, {0}:{1}", field.name,
+    if (width > 1 && names.front() != "X")
+      throw std::runtime_error(fmt::format("field '{0}' is no vector: choose a component, {0}:{1}", field.name,
                                            fmt::join(names, fmt::format(", {}:", field.name))));
     return width == 1 ? values : magnitudes(values, width);
   }
@@ -83,14 +81,29 @@ ShownUnit shown_unit(const std::string& field, double largest) {
   if (field == "Displacement") return largest < 0.2 ? ShownUnit{"mm", 1e3} : ShownUnit{"m", 1};
   static const std::map<std::string, std::string> units = {
       {"Velocity", "m/s"}, {"Density", "kg/m³"}, {"Mass", "kg/m"}, {"SmoothingLength", "m"}};
+  if (field == "Strain") return {"%", 100};
   const auto found = units.find(field);
   return {found == units.end() ? "" : found->second, 1};
 }
 
 std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) {
-  static const std::map<std::string, std::string> symbols = {
-      {"EffectiveStress", "σ'"}, {"TotalStress", "σ"}, {"PorePressure", "p_w"}, {"Displacement", "u"},
-      {"Velocity", "v"},         {"Density", "ρ"},     {"Mass", "m"},           {"SmoothingLength", "h"}};
+  static const std::map<std::string, std::string> symbols = {{"EffectiveStress", "σ'"},
+                                                             {"TotalStress", "σ"},
+                                                             {"PorePressure", "p_w"},
+                                                             {"Displacement", "u"},
+                                                             {"Velocity", "v"},
+                                                             {"Density", "ρ"},
+                                                             {"Mass", "m"},
+                                                             {"SmoothingLength", "h"},
+                                                             {"DeviatoricStress", "s"},
+                                                             {"ExcessStress", "Δσ'"},
+                                                             {"Strain", "ε"},
+                                                             {"MeanStress", "tr σ' / 3"},
+                                                             {"VonMisesStress", "q"}};
+  static const std::map<std::string, std::string> principal = {{"S1", "σ'₁"}, {"S2", "σ'₂"}, {"S3", "σ'₃"}};
+  if (const auto p = principal.find(selection.component);
+      p != principal.end() && selection.name == "PrincipalStress")
+    return fmt::format("{} [{}]", p->second, unit.name);
   const auto found = symbols.find(selection.name);
   std::string label = found == symbols.end() ? selection.name : found->second;
   if (found == symbols.end() && !selection.component.empty()) label += " " + selection.component;
@@ -106,9 +119,23 @@ std::string shown_name(const FieldSelection& selection) {
                                                                 {"ZZ", "out-of-plane "}, {"XY", "shear "},
                                                                 {"X", "horizontal "},    {"Y", "vertical "}};
   static const std::map<std::string, std::pair<std::string, std::string>> words = {
-      {"EffectiveStress", {"Effective ", "stress"}}, {"TotalStress", {"Total ", "stress"}},
-      {"Displacement", {"", "displacement"}},        {"Velocity", {"", "velocity"}},
-      {"PorePressure", {"", "pore pressure"}},       {"Density", {"", "density"}}};
+      {"EffectiveStress", {"Effective ", "stress"}},
+      {"TotalStress", {"Total ", "stress"}},
+      {"Displacement", {"", "displacement"}},
+      {"Velocity", {"", "velocity"}},
+      {"PorePressure", {"", "pore pressure"}},
+      {"Density", {"", "density"}},
+      {"DeviatoricStress", {"Deviatoric ", "stress"}},
+      {"ExcessStress", {"Excess over theory, ", "effective stress"}},
+      {"Strain", {"", "strain"}},
+      {"MeanStress", {"Mean effective ", "stress"}},
+      {"VonMisesStress", {"von Mises ", "stress"}}};
+  static const std::map<std::string, std::string> principal = {{"S1", "Largest principal effective stress"},
+                                                               {"S2", "Middle principal effective stress"},
+                                                               {"S3", "Smallest principal effective stress"}};
+  if (const auto p = principal.find(selection.component);
+      p != principal.end() && selection.name == "PrincipalStress")
+    return p->second;
   const auto word = words.find(selection.name);
   const auto direction = directions.find(selection.component);
   if (word == words.end() || (direction == directions.end() && !selection.component.empty()))
@@ -121,6 +148,7 @@ std::string shown_name(const FieldSelection& selection) {
 
 ColourMap usual_map(const FieldSelection& selection) {
   const std::string& c = selection.component;
+  if (selection.name == "ExcessStress") return ColourMap::cool_warm;
   return c == "XY" || c == "YZ" || c == "XZ" || c == "X" || c == "Z" ? ColourMap::cool_warm
                                                                      : ColourMap::viridis;
 }

@@ -108,13 +108,28 @@ struct StopCase {
   bool on_separation = true;          ///< unstable when particles have left the body
 };
 
+/// The files of the frames.
+enum class FrameFormat {
+  poly_data,          ///< .vtp
+  unstructured_grid,  ///< .vtu
+};
+enum class Compression { none, lz4, zlib };
+
 struct OutputCase {
   double interval = 0;          ///< between frames; 0: first and last only [s]
+  std::vector<double> times;    ///< of further frames [s]
   double history_interval = 0;  ///< between rows of the history; 0: every step [s]
   std::vector<std::string> fields = {
       "Displacement", "Velocity", "EffectiveStress", "TotalStress", "PorePressure",
       "Density",      "Mass",     "SmoothingLength", "SoilId",      "ParticleId"};
+  bool boundary = false;  ///< the images behind the walls as a second block
+  FrameFormat format = FrameFormat::poly_data;
+  Compression compression = Compression::zlib;
 };
+
+/// Fields that are computed and written only when asked for.
+inline const std::vector<std::string> optional_fields = {"PrincipalStress", "MeanStress", "DeviatoricStress",
+                                                         "VonMisesStress",  "Strain",     "ExcessStress"};
 
 struct ProbeCase {
   std::string name;

@@ -6,6 +6,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/check_case.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/case/nearest.hpp"
 #include "solver/case/overrides.hpp"
 #include "solver/case/report.hpp"
 
@@ -59,6 +60,21 @@ class Reader : public Fields {
       fail(key, path(key),
            fmt::format("must be a number {} or \"{}\"{}", range.text(), word,
                        did_you_mean(nearest(*given, {std::string(word)}))));
+  }
+
+  void numbers(const Key& key, std::vector<double>& values, const Range& range) override {
+    const toml::array* items = array(key, "a list of numbers");
+    if (!items) return;
+    values.clear();
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      const auto x = number_of(key, at, *items->get(i));
+      if (!x) continue;
+      if (range.contains(*x))
+        values.push_back(*x);
+      else
+        fail(key, at, fmt::format("must be {}{}", range.text(), unit(key)));
+    }
   }
 
   void integer(const Key& key, int& value, const Range& range) override {

@@ -22,6 +22,9 @@ class Documenter : public Fields {
   void number_or(const Key& key, double& value, const Range& range, std::string_view word, bool&) override {
     row(key, "number or text", fmt::to_string(value), fmt::format("{}; `{}`", range.text(), word));
   }
+  void numbers(const Key& key, std::vector<double>&, const Range& range) override {
+    row(key, "list of numbers", "[]", range.text());
+  }
   void integer(const Key& key, int& value, const Range& range) override {
     row(key, "whole number", fmt::to_string(value), range.text());
   }
@@ -30,8 +33,10 @@ class Documenter : public Fields {
   }
   void text(const Key& key, std::string&) override { row(key, "text", "\"\"", "any"); }
   void name(const Key& key, std::string&) override { row(key, "text", "", "letters, digits, `_`, `-`"); }
-  void words(const Key& key, std::vector<std::string>&, std::span<const std::string> allowed) override {
-    row(key, "list of text", "all", fmt::format("`{}`", fmt::join(allowed, "`, `")));
+  void words(const Key& key, std::vector<std::string>& values,
+             std::span<const std::string> allowed) override {
+    row(key, "list of text", fmt::format("{}", fmt::join(values, ", ")),
+        fmt::format("`{}`", fmt::join(allowed, "`, `")));
   }
   void point(const Key& key, Point& value) override {
     row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");

@@ -1,28 +1,11 @@
-#include <toml++/toml.h>
-
-#include <sstream>
+#include <utility>
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/case/toml_text.hpp"
 
 namespace porosph {
 namespace {
-
-std::string toml_text(const std::string& text) {
-  std::ostringstream out;
-  const toml::value<std::string> value(text);
-  out << toml::toml_formatter(value, toml::format_flags::none);  // none: on one line, with escapes
-  return out.str();
-}
-
-std::string toml_text(const Point& p) { return fmt::format("[{}, {}]", p.x(), p.y()); }
-
-template <class T>
-std::string toml_text(const std::vector<T>& values) {
-  std::string list;
-  for (const T& value : values) list += (list.empty() ? "" : ", ") + toml_text(value);
-  return fmt::format("[{}]", list);
-}
 
 /// Writes declared values that are used, each with its unit or meaning beside it.
 class Writer : public Fields {
@@ -31,7 +14,7 @@ class Writer : public Fields {
 
   void number(const Key& key, double& value, const Range& range) override {
     if (range.contains(value) && value < never)
-      line(key, fmt::format("{}", value));
+      line(key, toml_text(value));
     else if (key.is_used)
       result += fmt::format("# {} is not set: {}\n", key.name, key.fallback);
   }
@@ -41,6 +24,9 @@ class Writer : public Fields {
       line(key, fmt::format("\"{}\"", word));
     else
       number(key, value, range);
+  }
+  void numbers(const Key& key, std::vector<double>& values, const Range&) override {
+    line(key, toml_text(values));
   }
   void integer(const Key& key, int& value, const Range&) override { line(key, fmt::to_string(value)); }
   void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }

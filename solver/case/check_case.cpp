@@ -166,6 +166,12 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   if (frames > most_frames)
     issues.push_back(
         {"output.interval", fmt::format("makes {:.3g} frames; at most {:.0e}", frames, most_frames)});
+  for (std::size_t i = 0; i < c.output.times.size(); ++i)
+    if (c.output.times[i] > c.time.end)
+      issues.push_back({at("output.times", i), fmt::format("must be <= time.end = {} s", c.time.end)});
+  for (std::size_t i = 0; i < c.output.fields.size(); ++i)
+    if (c.output.fields[i] == "ExcessStress" && c.reference == Reference::none)
+      issues.push_back({at("output.fields", i), "is the excess over the exact solution: needs 'reference'"});
   return issues;
 }
 

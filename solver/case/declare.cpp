@@ -13,6 +13,8 @@ using Names = std::string_view;
 constexpr std::array<Names, 4> arrangements{"lattice", "fitted", "disordered", "surface"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
+constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
+constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 
 bool level_everywhere(const WaterCase& c) {
@@ -242,11 +244,24 @@ void declare(Fields& f, StopCase& c) {
 }
 
 void declare(Fields& f, OutputCase& c) {
-  static const std::vector<std::string> known = OutputCase{}.fields;
+  static const std::vector<std::string> known = [] {
+    std::vector<std::string> all = OutputCase{}.fields;
+    all.insert(all.end(), optional_fields.begin(), optional_fields.end());
+    return all;
+  }();
   f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, between(0, longest));
+  f.numbers(Key("times", "s", "Of further frames, each at the step nearest to it."), c.times,
+            between(0, longest));
   f.number(Key("history_interval", "s", "Between rows of the history; 0: every step."), c.history_interval,
            between(0, longest));
-  f.words(Key("fields", "", "Particle data of the frames."), c.fields, known);
+  f.words(Key("fields", "", "Particle data of the frames; only these are computed for output."), c.fields,
+          known);
+  f.flag(Key("boundary", "", "Whether the mirror particles behind the walls are written, as a second block."),
+         c.boundary);
+  f.choice(Key("format", "", "Of the frames: PolyData (`vtp`) or UnstructuredGrid (`vtu`)."), c.format,
+           frame_formats);
+  f.choice(Key("compression", "", "Of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
+           c.compression, compressions);
 }
 
 void declare(Fields& f, ProbeCase& c) {

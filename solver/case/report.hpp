@@ -42,7 +42,4 @@ class Report {
 /// "file:line:column".
 std::string place(std::string_view file, toml::source_position at);
 
-/// The word of `known` that was probably meant, or "" if none is near (edit distance).
-std::string nearest(std::string_view word, const std::vector<std::string>& known);
-
 }  // namespace porosph

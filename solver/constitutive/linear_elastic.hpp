@@ -39,6 +39,12 @@ struct LinearElastic {
     return stress * (no_tension && stress.mean() > 0 ? 0.0 : 1.0);
   }
 
+  /// The stress from which update() leads to `after`, where tension is carried [Pa].
+  Stress before(const Stress& after, const Gradient& velocity_gradient, double dt) const {
+    const double spin = 0.5 * (velocity_gradient.yx - velocity_gradient.xy);
+    return turned(after + elastic_rate(velocity_gradient) * -dt, -0.5 * spin * dt);
+  }
+
  private:
   /// Stress turned counter-clockwise by the angle whose half has the tangent t.
   static Stress turned(const Stress& s, double t) {

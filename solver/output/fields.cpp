@@ -5,6 +5,10 @@
 #include <functional>
 #include <stdexcept>
 
+#include "solver/output/invariants.hpp"
+#include "solver/output/strain.hpp"
+#include "solver/simulation/reference_errors.hpp"
+
 namespace porosph {
 namespace {
 
@@ -40,7 +44,7 @@ std::vector<double> tensors(const Particles& p, Value value) {
   std::vector<double> out;
   out.reserve(6 * p.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Stress s = value(i);
+    const auto s = value(i);
     out.insert(out.end(), {s.xx, s.yy, s.zz, s.xy, 0.0, 0.0});
   }
   return out;
@@ -49,6 +53,16 @@ std::vector<double> tensors(const Particles& p, Value value) {
 Stress total_stress(const Particles& p, std::size_t i) {  // eq. (12)
   const double w = p.pore_pressure[i];
   return p.stress[i] + Stress{w, w, w, 0};
+}
+
+std::vector<double> principal(const Particles& p) {
+  std::vector<double> out;
+  out.reserve(3 * p.size());
+  for (const Stress& s : p.stress) {
+    const auto values = principal_stresses(s);
+    out.insert(out.end(), values.begin(), values.end());
+  }
+  return out;
 }
 
 const Particles& particles(Simulation& s) { return s.model().particles; }
@@ -83,6 +97,31 @@ const std::vector<Field>& registry() {
        [](Simulation& s) { return particles(s).soil; }},
       {{"ParticleId", "-", "number of the particle, from 0, the same in all frames", {}},
        [](Simulation& s) { return particles(s).id; }},
+      {{"PrincipalStress", "Pa", "of sigma', the most tensile first", {"S1", "S2", "S3"}},
+       [](Simulation& s) { return principal(particles(s)); }},
+      {{"MeanStress", "Pa", "tr(sigma') / 3", {}},
+       [](Simulation& s) {
+         return scalars<double>(particles(s), [&](auto i) { return particles(s).stress[i].mean(); });
+       }},
+      {{"DeviatoricStress", "Pa", "s = sigma' - tr(sigma') / 3 I, that of sigma too", tensor_components},
+       [](Simulation& s) {
+         return tensors(particles(s), [&](auto i) { return deviator(particles(s).stress[i]); });
+       }},
+      {{"VonMisesStress", "Pa", "sqrt(3/2 s : s)", {}},
+       [](Simulation& s) {
+         return scalars<double>(particles(s),
+                                [&](auto i) { return von_mises_stress(particles(s).stress[i]); });
+       }},
+      {{"Strain", "-", "Green-Lagrange strain since t = 0 (tensor shear, half of gamma)", tensor_components},
+       [](Simulation& s) {
+         const std::vector<Strain> strain = strain_since_start(s.model());
+         return tensors(particles(s), [&](auto i) { return strain[i]; });
+       }},
+      {{"ExcessStress", "Pa", "sigma' less that of the case's exact solution at rest", tensor_components},
+       [](Simulation& s) {
+         const std::vector<Stress> exact = reference_stress(s);
+         return tensors(particles(s), [&](auto i) { return particles(s).stress[i] + exact[i] * -1.0; });
+       }},
   };
   return fields;
 }

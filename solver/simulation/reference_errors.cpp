@@ -55,13 +55,33 @@ ReferenceColumn reference_column(const Case& scene) {
   return {column, ground.bottom};
 }
 
+namespace {
+
+FiniteStrainColumn exact_column(const Case& scene, const Column& column) {
+  return scene.reference == Reference::conventional_column ? conventional_column(column)
+                                                           : FiniteStrainColumn(column);
+}
+
+}  // namespace
+
+std::vector<Stress> reference_stress(const Simulation& simulation) {
+  const Case& scene = simulation.scene();
+  if (scene.reference == Reference::none) throw std::runtime_error("the case names no reference");
+  const auto [column, bottom] = reference_column(scene);
+  const FiniteStrainColumn exact = exact_column(scene, column);
+  std::vector<Stress> stress;
+  for (const Vec2& start : simulation.model().particles.start) {
+    const double height = start.y() - bottom, lateral = exact.lateral_stress(height);
+    stress.push_back({lateral, exact.vertical_stress(height), lateral, 0});
+  }
+  return stress;
+}
+
 std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation) {
   const Case& scene = simulation.scene();
   if (scene.reference == Reference::none) return {};
   const auto [column, bottom] = reference_column(scene);
-  const FiniteStrainColumn exact = scene.reference == Reference::conventional_column
-                                       ? conventional_column(column)
-                                       : FiniteStrainColumn(column);
+  const FiniteStrainColumn exact = exact_column(scene, column);
   const Particles& p = simulation.model().particles;
   const auto height = [&](std::size_t i) { return p.start[i].y() - bottom; };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };

@@ -18,6 +18,10 @@ struct ReferenceColumn {
 /// The column that a case with a reference describes. Throws std::runtime_error where it has several soils.
 ReferenceColumn reference_column(const Case& scene);
 
+/// Effective stress of the exact solution at each particle's height at t = 0 [Pa]. Throws std::runtime_error
+/// where the case names no reference, or is not one that the reference describes.
+std::vector<Stress> reference_stress(const Simulation& simulation);
+
 /// Field (EffectiveStress_YY, ..., Displacement_Y) -> norms over the particles, each at its height at t = 0;
 /// empty where the case names no reference. Throws std::runtime_error where the case is not one that the
 /// reference describes.

@@ -84,8 +84,14 @@ class Guard {
 
 }  // namespace
 
+Schedule::Schedule(double interval, double time_step, std::int64_t last_step,
+                   const std::vector<double>& times)
+    : interval_(interval), dt_(time_step), last_(last_step) {
+  for (const double time : times) at_times_.insert(std::llround(time / time_step));
+}
+
 bool Schedule::due(std::int64_t step) const {
-  if (step == 0 || step == last_) return true;
+  if (step == 0 || step == last_ || at_times_.contains(step)) return true;
   if (interval_ <= 0) return false;
   if (interval_ <= dt_) return true;
   const double nearest = std::round(static_cast<double>(step) * dt_ / interval_);
@@ -110,7 +116,7 @@ void RunProgress::visit(StateArchive& state) {
 RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   using Clock = std::chrono::steady_clock;
   const OutputCase& output = s.scene().output;
-  const Schedule frames(output.interval, s.time_step(), s.last_step());
+  const Schedule frames(output.interval, s.time_step(), s.last_step(), output.times);
   const double history_interval = output.history_interval > 0 ? output.history_interval : s.time_step();
   const Schedule rows(history_interval, s.time_step(), s.last_step());
   const Equilibrium equilibrium(s);

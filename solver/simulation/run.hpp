@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 
 #include "solver/output/frame.hpp"
 #include "solver/simulation/simulation.hpp"
@@ -9,16 +10,17 @@
 namespace porosph {
 
 /// Steps at which something is due every `interval` seconds: the nearest step to each multiple; every step
-/// where the interval is shorter than one. The first and the last step are always due.
+/// where the interval is shorter than one; and the nearest steps to `times`. The first and the last step are
+/// always due.
 class Schedule {
  public:
-  Schedule(double interval, double time_step, std::int64_t last_step)
-      : interval_(interval), dt_(time_step), last_(last_step) {}
+  Schedule(double interval, double time_step, std::int64_t last_step, const std::vector<double>& times = {});
   bool due(std::int64_t step) const;
 
  private:
   double interval_, dt_;
   std::int64_t last_;
+  std::set<std::int64_t> at_times_;
 };
 
 /// What a run keeps besides its simulation.

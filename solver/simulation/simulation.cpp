@@ -1,6 +1,10 @@
 #include "solver/simulation/simulation.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "solver/monitor/energy.hpp"
 #include "solver/parallel.hpp"
@@ -49,6 +53,16 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
 }
 
+void Simulation::set_material(const std::string& soil, std::shared_ptr<Material> material) {
+  const auto& soils = scene_.soils;
+  const auto found = std::ranges::find(soils, soil, &SoilCase::name);
+  if (found == soils.end()) throw std::invalid_argument(fmt::format("no soil is called '{}'", soil));
+  if (found->no_tension)
+    throw std::invalid_argument(fmt::format("soil '{}' is without tension: it cannot have a material", soil));
+  materials_.resize(soils.size());
+  materials_[found - soils.begin()] = std::move(material);
+}
+
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;
   if (time() >= loading.damping_until) return 0;
@@ -82,6 +96,7 @@ void Simulation::advance() {
   accelerations_valid_ = false;
   ++step_;
   if (instability_) return;
+  if (!materials_.empty()) apply_materials(materials_, model_, *dynamics_, dt_);
   dynamics_->strain(dt_);
   if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
 }

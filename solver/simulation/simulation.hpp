@@ -9,6 +9,7 @@
 #include "solver/model/model.hpp"
 #include "solver/monitor/instability.hpp"
 #include "solver/motion/dynamics.hpp"
+#include "solver/simulation/apply_materials.hpp"
 #include "solver/simulation/probe.hpp"
 #include "solver/simulation/relaxation.hpp"
 
@@ -20,6 +21,10 @@ class Simulation {
   /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
   /// `dynamics`: another implementation than the case's own, to be compared with it.
   explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
+
+  /// Gives a soil a material other than linear elastic. Throws std::invalid_argument where no soil has that
+  /// name or it is one without tension.
+  void set_material(const std::string& soil, std::shared_ptr<Material> material);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();
@@ -80,6 +85,7 @@ class Simulation {
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
   std::vector<Probe> probes_;
+  Materials materials_;  ///< empty where all soils are linear elastic
   double dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;

@@ -15,6 +15,7 @@
 #include "tests/unit/vtk_io/example_frame.hpp"
 #include "vtk_io/particle_series.hpp"
 #include "vtk_io/pvd.hpp"
+#include "vtk_io/read_series.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 using namespace porosph;
@@ -117,7 +118,7 @@ TEST_CASE("after each frame the .pvd names all of them, with exact times") {
   }
   CHECK(read_pvd(series.pvd())[5].file == "frames/particles_000005.vtp");
   CHECK(sorted_names_in(folder.path()) ==
-        std::vector<std::string>{"frames", "open_in_paraview.py", "particles.pvd"});
+        std::vector<std::string>{"compare_in_paraview.py", "frames", "open_in_paraview.py", "particles.pvd"});
   CHECK(names_in(folder / "frames").size() == times.size());
 }
 
@@ -216,6 +217,23 @@ TEST_CASE("a disk that is full at the last byte is noticed") {
     CHECK_THROWS_AS(series.write(example_frame(0)), WriteError);
   }
   CHECK(names_in(folder / "frames").size() == 1);
+}
+
+TEST_CASE("the boundary is a second block of the same times, kept and removed with its frames") {
+  const TemporaryFolder folder;
+  {
+    SeriesWriter series(folder.path());
+    for (const double time : {0.0, 0.1, 0.2}) series.write(example_frame(time), example_frame(time, 7));
+  }
+  CHECK(std::filesystem::exists(folder / "frames/boundary_000002.vtp"));
+  const auto series = SeriesWriter::resume(folder.path(), 0.1);
+  CHECK_FALSE(std::filesystem::exists(folder / "frames/boundary_000002.vtp"));
+  const auto frames = read_pvd(series.pvd());
+  REQUIRE(frames.size() == 2);
+  CHECK(frames[1].time == 0.1);
+  CHECK(frames[1].file == "frames/particles_000001.vtp");
+  CHECK(frames[1].boundary_file == "frames/boundary_000001.vtp");
+  CHECK(read_frame(folder / frames[1].boundary_file)->GetNumberOfPoints() == 7);
 }
 
 TEST_CASE("folders that cannot be written are WriteErrors with the system's reason") {

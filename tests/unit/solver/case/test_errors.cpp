@@ -56,12 +56,20 @@ TEST_CASE("values that are wrong by themselves") {
       {"end = 1", "end = 1\n[output]\nfields = ['Velocty']",
        "box.toml:21:11: key 'output.fields[0]' = \"Velocty\": must be one of Displacement, Velocity, "
        "EffectiveStress, "
-       "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId; did you mean "
+       "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
+       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress; did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",
        "box.toml:21:19: key 'output.fields[1]' = \"Mass\": is given twice"},
       {"end = 1", "end = 1\n[output]\ninterval = 1e-9",
        "box.toml:21:12: key 'output.interval' = 1e-09: makes 1e+09 frames; at most 1e+05"},
+      {"end = 1", "end = 1\n[output]\ntimes = [0.5, 2]",
+       "box.toml:21:15: key 'output.times[1]' = 2: must be <= time.end = 1 s"},
+      {"end = 1", "end = 1\n[output]\ntimes = [-1]", "box.toml:21:10: key 'output.times[0]' = -1: must be >= 0 and <= 1e+09 s"},
+      {"end = 1", "end = 1\n[output]\nformat = 'vtx'",
+       "box.toml:21:10: key 'output.format' = \"vtx\": must be one of \"vtp\", \"vtu\"; did you mean 'vtp'?"},
+      {"end = 1", "end = 1\n[output]\nfields = ['ExcessStress']",
+       "box.toml:21:11: key 'output.fields[0]' = \"ExcessStress\": is the excess over the exact solution: needs 'reference'"},
   }));
   CHECK(errors_of(with(wrong.old_text, wrong.new_text)) == wrong.error);
 }

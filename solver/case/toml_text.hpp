@@ -1,0 +1,24 @@
+// Values of a case as TOML.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "solver/case/case.hpp"
+
+namespace porosph {
+
+std::string toml_text(const std::string& text);  ///< on one line, with escapes
+std::string toml_text(const Point& point);
+inline std::string toml_text(double value) { return fmt::format("{}", value); }
+
+template <class T>
+std::string toml_text(const std::vector<T>& values) {
+  std::string list;
+  for (const T& value : values) list += (list.empty() ? "" : ", ") + toml_text(value);
+  return fmt::format("[{}]", list);
+}
+
+}  // namespace porosph

@@ -1,0 +1,43 @@
+#include "solver/output/strain.hpp"
+
+#include <limits>
+
+#include "solver/kernel/cubic_spline.hpp"
+#include "solver/neighbours/neighbour_list.hpp"
+
+namespace porosph {
+namespace {
+
+/// F of particle a, from the differences to its neighbours.
+Mat2 deformation(const Particles& p, std::size_t a, std::span<const std::int32_t> near,
+                 const CubicSpline<2>& kernel) {
+  Mat2 before = Mat2::Zero(), after = Mat2::Zero();
+  for (const std::int32_t b : near) {
+    const Vec2 difference = p.start[b] - p.start[a];
+    const Vec2 gradient = -p.volume(b) * kernel.slope(difference.norm()) * difference;
+    before += difference * gradient.transpose();
+    after += (p.position[b] - p.position[a]) * gradient.transpose();
+  }
+  constexpr double spans_the_plane = 1e-2;  // det of `before` is 1 inside, about 1/4 in a right-angled corner
+  if (!(before.determinant() > spans_the_plane))
+    return Mat2::Constant(std::numeric_limits<double>::quiet_NaN());
+  return after * inverse(before);
+}
+
+}  // namespace
+
+std::vector<Strain> strain_since_start(const Model& model) {
+  const Particles& p = model.particles;
+  const CubicSpline<2> kernel(model.smoothing_length);
+  const NeighbourList neighbours = find_neighbours(p.start, p.size(), kernel.support());
+  std::vector<Strain> strain(p.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const Mat2 f = deformation(p, a, neighbours.of(a), kernel);
+    const Mat2 e = 0.5 * (f.transpose() * f - Mat2::Identity());
+    strain[a] = {e(0, 0), e(1, 1), 0, e(0, 1)};
+  }
+  return strain;
+}
+
+}  // namespace porosph
