@@ -1,7 +1,18 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds with all tests and runs them. Arguments go to ctest, e.g. ./test.sh -R render
+# What takes longer stands behind options:
+#   --sanitize          the tests under the address, undefined-behaviour and thread sanitizers
+#   --fault             50 kills at random moments, 500 cases with random mistakes, lost disks and folders
+#   --fuzz [SECONDS]    the readers under libFuzzer
+#   --lint [FILE...]    cppcheck and clang-tidy
+#   --coverage          which lines the tests reach
 set -euo pipefail
 cd "$(dirname "$0")"
+case "${1:-}" in
+  --sanitize | --fault | --fuzz | --lint | --coverage)
+    scripts/install_packages.sh nightly
+    exec scripts/"${1#--}".sh "${@:2}" ;;
+esac
 preset=${POROSPH_PRESET:-tests}
 scripts/install_packages.sh tests
 cmake --preset "$preset" > /dev/null
