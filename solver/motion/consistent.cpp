@@ -70,6 +70,8 @@ void ConsistentDynamics::make_reference() {
   make_corrections();
   make_one_sided_gradients();
   choose_records();
+  make_room();
+  connect_arrays();
 }
 
 void ConsistentDynamics::make_images() {
@@ -163,28 +165,25 @@ void ConsistentDynamics::choose_records() {
   }
 }
 
-/// Room for the state since the reference, which is undeformed at first.
+void ConsistentDynamics::start_from_reference() {
+  update_velocities();
+  strain_all(0);
+  largest_strain_ = 0;
+  travel_ = 0;
+}
+
+/// For the state since the reference: undeformed so far.
 void ConsistentDynamics::make_room() {
   const Particles& p = model_.particles;
-  const std::size_t n = p.size();
-  for (int k = 0; k < 4; ++k) deformation_[k].assign(n, k == 0 || k == 3 ? 1.0 : 0.0);
+  for (int k = 0; k < 4; ++k) deformation_[k].assign(p.size(), k == 0 || k == 3 ? 1.0 : 0.0);
   resize(flux_, points_.size());
   for (auto& v : velocity_) v.resize(points_.size());
   wet_ = model_.water.present() ||
          std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(), [](double w) { return w != 0; });
   if (wet_) pressure_.resize(points_.size());
   records_.assign(points_.size(), Record{});
-  piola_.resize(points_.size());
+  piola_.assign(points_.size(), PlaneTensor{});
   image_positions_.resize(images_.size());
-  connect_arrays();
-}
-
-void ConsistentDynamics::start_from_reference() {
-  make_room();
-  update_velocities();
-  strain_all(0);
-  largest_strain_ = 0;
-  travel_ = 0;
 }
 
 void ConsistentDynamics::connect_arrays() {
@@ -320,12 +319,6 @@ void ConsistentDynamics::extrapolate_stress() {
   }
 }
 
-void ConsistentDynamics::record_flux(std::size_t i) {
-  if (!listed_[i]) return;
-  Lanes& q = records_[i].q;
-  for (int k = 0; k < 4; ++k) q[k] = flux_[k][i];
-}
-
 void ConsistentDynamics::update_image_fluxes() {
   const std::size_t n = model_.particles.size();
   const auto mirror_stress = [&](std::size_t i) {
@@ -343,7 +336,9 @@ void ConsistentDynamics::update_image_fluxes() {
     const Mat2 viscous = get(flux_, parent) - matrix(piola_[parent]) * correction(parent);
     const Mat2 flux = matrix(piola_[n + i]) * correction(n + i) + wall.velocity * viscous * wall.stress;
     set(flux_, n + i, flux);
-    record_flux(n + i);
+    if (!listed_[n + i]) continue;
+    Lanes& q = records_[n + i].q;
+    for (int k = 0; k < 4; ++k) q[k] = flux_[k][n + i];
   }
 }
 
@@ -382,12 +377,11 @@ void ConsistentDynamics::visit(StateArchive& state) {
   if (state.restoring()) restore_reference(positions, densities);
   for (auto& component : deformation_) state.array("deformation", component);
   for (auto& component : flux_) state.array("flux", std::span(component).first(n));
-  state.array("piola", std::span(piola_).first(n));  // of the images: made when they are needed
+  state.array("piola",
+              std::span(piola_).first(n));  // of the images, as their flux: made when they are needed
   state.value("largest_strain", largest_strain_);
   state.value("travel", travel_);
-  if (!state.restoring()) return;
-  for (std::size_t a = 0; a < n; ++a) record_flux(a);
-  update_velocities();
+  if (state.restoring()) update_flux_records();
 }
 
 /// The reference as it was made when the particles had these positions and densities.
@@ -396,7 +390,15 @@ void ConsistentDynamics::restore_reference(std::vector<Vec2>& positions, std::ve
   p.position.swap(positions), p.density.swap(densities);
   make_reference();
   p.position.swap(positions), p.density.swap(densities);
-  make_room();
+  connect_arrays();
+  update_velocities();
+}
+
+/// As the kernels leave them after each step.
+void ConsistentDynamics::update_flux_records() {
+  for (std::size_t a = 0; a < model_.particles.size(); ++a)
+    if (listed_[a])
+      for (int k = 0; k < 4; ++k) records_[a].q[k] = flux_[k][a];
 }
 
 void ConsistentDynamics::strain(double dt) {

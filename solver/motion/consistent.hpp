@@ -44,16 +44,16 @@ class ConsistentDynamics final : public Dynamics {
   void make_corrections();
   void make_one_sided_gradients();
   void choose_records();
-  void make_room();
   void start_from_reference();
+  void make_room();
   void connect_arrays();
   bool strangers_are_near();
 
   LargestChange strain_all(double dt);
   void update_velocities();
   void update_pressures();
-  void record_flux(std::size_t i);
   void update_image_fluxes();
+  void update_flux_records();
   void extrapolate_stress();
 
   Mat2 correction(std::size_t i) const { return get(correction_, i); }
