@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|nightly
+# Installs the Debian packages that a job needs and that are missing:
+# install_packages.sh compute|release|tests|benchmarks|nightly
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
@@ -7,13 +8,15 @@ compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-optio
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
 nightly=("${tests[@]}" clang libclang-rt-14-dev libomp-dev clang-tidy cppcheck gcovr)  # sanitizers, fuzzing, lint, coverage
+benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
 
 case "${1:-}" in
   compute) wanted=("${compute[@]}") ;;
   release) wanted=("${release[@]}") ;;
   tests) wanted=("${tests[@]}") ;;
+  benchmarks) wanted=("${benchmarks[@]}") ;;
   nightly) wanted=("${nightly[@]}") ;;
-  *) echo "usage: $0 compute|release|tests|nightly" >&2; exit 2 ;;
+  *) echo "usage: $0 compute|release|tests|benchmarks|nightly" >&2; exit 2 ;;
 esac
 
 missing=()
