@@ -63,7 +63,7 @@ std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation)
                                        ? conventional_column(column)
                                        : FiniteStrainColumn(column);
   const Particles& p = simulation.model().particles;
-  const auto height = [&](std::size_t i) { return p.start[i].y() - bottom; };
+  const auto height = [&p, low = bottom](std::size_t i) { return p.start[i].y() - low; };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };
   return {
       {"EffectiveStress_XX", norms(

@@ -61,16 +61,18 @@ name = "A"
 position = [1, 1]
 """
 
-# The last one has a reference that is renewed some times, and ends in equilibrium.
+# "renewed" has a reference that is renewed many times and ends in equilibrium, "unstable" is thrown apart in the end.
 VARIANTS = {
     "consistent": [],
     "proposed": ["formulation.motion=proposed", "time.end=6"],
     "conventional": ["formulation.motion=conventional", "time.end=6", "formulation.artificial_stress=0.3",
                      "stop.on_separation=false"],
     "renewed": ["formulation.refresh_strain=0.002", "stop.unbalanced_force_ratio=0.02", "loading.damping=0.02"],
+    "adaptive": ["loading.damping=adaptive", "stop.unbalanced_force_ratio=0.001"],
+    "unstable": ["formulation.motion=conventional", "time.end=6"],
 }
 TIMES_AND_MEMORY = ("wall_seconds", "stepping_seconds", "particle_steps_per_second", "peak_memory_bytes")
-FINISHED, INTERRUPTED = 0, 130
+FINISHED, UNSTABLE, INTERRUPTED = 0, 3, 130
 
 
 def command(program, case, folder, settings, resume):
@@ -118,7 +120,9 @@ def main():
     whole, seconds = {}, {}
     for name, settings in VARIANTS.items():
         start = time.monotonic()
-        subprocess.run(command(options.program, case, place / name, settings, False), check=True)
+        status = run_and_stop(command(options.program, case, place / name, settings, False), 600, signal.SIGKILL)
+        if status != (UNSTABLE if name == "unstable" else FINISHED):
+            sys.exit(f"{name}: exit status {status}")
         seconds[name] = time.monotonic() - start
         whole[name] = content(place / name)
 
@@ -129,7 +133,7 @@ def main():
         name = list(VARIANTS)[round_number % len(VARIANTS)]
         folder, resume = place / f"killed_{round_number}", False
         status = None
-        while status != FINISHED:
+        while status not in (FINISHED, UNSTABLE):
             last = kills >= options.kills or (resume and chance.random() < 0.4)
             how = signal.SIGTERM if chance.random() < 0.2 else signal.SIGKILL
             delay = 600 if last else chance.uniform(0, seconds[name])
@@ -137,7 +141,7 @@ def main():
             if status in (-signal.SIGKILL, -signal.SIGTERM, INTERRUPTED):
                 kills += 1
                 from_checkpoint += (folder / "checkpoint.bin").exists()
-            elif status != FINISHED:
+            elif status not in (FINISHED, UNSTABLE):
                 sys.exit(f"round {round_number} ({name}): exit status {status}")
             resume = True
         different = differences(whole[name], content(folder))
