@@ -1,11 +1,22 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds with all tests and runs them. Arguments go to ctest, e.g. ./test.sh -R render
-#   ./test.sh --nightly      also runs the long ones (a million steps) and draws all stability maps in full
-#   ./test.sh --paraview     instead: installs ParaView beside the build's own VTK and looks at runs with it
-#   ./test.sh --docs [FILE]  instead: runs the shell lines of README and docs, also the long ones, in a fresh clone
-#   ./test.sh --package      instead: packs the .deb, installs it and builds the example on it (needs to be root)
+# What takes longer, or needs more, stands behind options:
+#   --sanitize          the tests under the address, undefined-behaviour and thread sanitizers
+#   --fault             50 kills at random moments, 500 cases with random mistakes, lost disks and folders
+#   --fuzz [SECONDS]    the readers under libFuzzer
+#   --lint [FILE...]    cppcheck and clang-tidy
+#   --coverage          which lines the tests reach
+#   --paraview          ParaView, installed beside the build's own VTK, looks at runs
+#   --docs [FILE]       the shell lines of README and docs, also the long ones, in a fresh clone
+#   --package           packs the .deb, installs it and builds the example on it (needs to be root)
+#   --nightly           all tests, then the long ones (a million steps) and all stability maps in full
 set -euo pipefail
 cd "$(dirname "$0")"
+case "${1:-}" in
+  --sanitize | --fault | --fuzz | --lint | --coverage)
+    scripts/install_packages.sh nightly
+    exec scripts/"${1#--}".sh "${@:2}" ;;
+esac
 nightly=false
 if [[ ${1:-} == --nightly ]]; then nightly=true; shift; fi
 preset=${POROSPH_PRESET:-tests}

@@ -14,11 +14,11 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include "render/offscreen_window.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
 
@@ -103,10 +103,8 @@ void Picture::save(const std::filesystem::path& path) {
   png->Write();
 
   vtkUnsignedCharArray* bytes = png->GetResult();
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("render: cannot write {}", path.string()));
+  write_file(path, {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+                    static_cast<std::size_t>(bytes->GetNumberOfValues())});
 }
 
 }  // namespace porosph

@@ -25,7 +25,7 @@ class Picture {
   void add_scene(const Box& area, vtkProp* prop);
   /// `paint` is called when the picture is saved, on top of all scenes.
   void draw(std::function<void(Canvas&)> paint);
-  /// Throws std::runtime_error if the file cannot be written.
+  /// The file is the old or the complete new one. Throws WriteError.
   void save(const std::filesystem::path& path);
 
  private:

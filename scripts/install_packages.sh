@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing:
-#   install_packages.sh compute|release|tests|benchmarks|paraview|package
+#   install_packages.sh compute|release|tests|benchmarks|paraview|package|nightly
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
+nightly=("${tests[@]}" clang libclang-rt-14-dev libomp-dev clang-tidy cppcheck gcovr)  # sanitizers, fuzzing, lint, coverage
 benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
 package=("${release[@]}" dpkg-dev file)  # packs the .deb
 paraview=("${release[@]}" paraview xvfb)  # its python modules: see scripts/paraview.sh
@@ -18,7 +19,8 @@ case "${1:-}" in
   benchmarks) wanted=("${benchmarks[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
   package) wanted=("${package[@]}") ;;
-  *) echo "usage: $0 compute|release|tests|benchmarks|paraview|package" >&2; exit 2 ;;
+  nightly) wanted=("${nightly[@]}") ;;
+  *) echo "usage: $0 compute|release|tests|benchmarks|paraview|package|nightly" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -1,7 +1,7 @@
 #include "render/run/fem_reference.hpp"
 
 #include <fmt/format.h>
-#include <vtkCell.h>
+#include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -9,10 +9,13 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "solver/case/case_file.hpp"
+#include "vtk_io/read_series.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/vtk_errors.hpp"
 
 namespace porosph {
 namespace {
@@ -20,11 +23,14 @@ namespace {
 const std::vector<std::string> vector_components = {"X", "Y", "Z"};
 const std::vector<std::string> tensor_components = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
-std::map<std::string, std::vector<double>> read_arrays(vtkPointData& data) {
+std::map<std::string, std::vector<double>> read_arrays(const std::filesystem::path& file,
+                                                       vtkPointData& data) {
   std::map<std::string, std::vector<double>> arrays;
   for (int a = 0; a < data.GetNumberOfArrays(); ++a) {
     vtkDataArray& array = *data.GetArray(a);
     const int width = array.GetNumberOfComponents();
+    if (width != 1 && width != 3 && width != 6)
+      throw ReadError(file, "it has an array of unknown components");
     for (int c = 0; c < width; ++c) {
       const FieldSelection name{array.GetName(), width == 1 ? ""
                                                  : width == 3
@@ -37,15 +43,45 @@ std::map<std::string, std::vector<double>> read_arrays(vtkPointData& data) {
   return arrays;
 }
 
+/// VTK's reader takes sizes from the file as they are and says little: the sizes are looked at first.
+void read_grid(const std::filesystem::path& file, vtkXMLUnstructuredGridReader& reader) {
+  read_frame(file);
+  vtkNew<VtkErrors> errors;
+  errors->watch(reader);
+  reader.SetFileName(file.c_str());
+  try {
+    reader.Update();
+  } catch (const std::bad_alloc&) {
+    throw ReadError(file, "it asks for more memory than there is");
+  }
+  if (errors->any()) throw ReadError(file, errors->first());
+}
+
+/// The nodes of cell i. Nothing that the file says of them is relied on.
+std::array<int, p4::node_count> nodes_of(const std::filesystem::path& file, vtkUnstructuredGrid& grid,
+                                         vtkIdType i) {
+  vtkCellArray& cells = *grid.GetCells();
+  const auto begin = static_cast<vtkIdType>(cells.GetOffsetsArray()->GetComponent(i, 0)),
+             end = static_cast<vtkIdType>(cells.GetOffsetsArray()->GetComponent(i + 1, 0));
+  if (begin < 0 || end > cells.GetConnectivityArray()->GetNumberOfTuples() || end - begin != p4::node_count)
+    throw ReadError(file, "it holds cells other than 15-node triangles");
+  std::array<int, p4::node_count> nodes{};
+  for (int n = 0; n < p4::node_count; ++n) {
+    const double node = cells.GetConnectivityArray()->GetComponent(begin + n, 0);
+    if (!(node >= 0 && node < static_cast<double>(grid.GetNumberOfPoints())))
+      throw ReadError(file, "its triangles have nodes that are not there");
+    nodes[static_cast<std::size_t>(n)] = static_cast<int>(node);
+  }
+  return nodes;
+}
+
 }  // namespace
 
 FemReference::FemReference(const std::filesystem::path& folder) : scene_(read_case(folder / "case.toml")) {
   const std::filesystem::path file = folder / "fem.vtu";
   if (!std::filesystem::exists(file)) throw ReadError(file, "there is no such file; porosph fem writes it");
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(file.c_str())) throw ReadError(file, "it is no .vtu");
-  reader->SetFileName(file.c_str());
-  reader->Update();
+  read_grid(file, *reader);
   vtkUnstructuredGrid& grid = *reader->GetOutput();
   for (vtkIdType i = 0; i < grid.GetNumberOfPoints(); ++i) {
     double p[3];
@@ -53,17 +89,12 @@ FemReference::FemReference(const std::filesystem::path& folder) : scene_(read_ca
     mesh_.vertices.push_back({p[0], p[1]});
   }
   for (vtkIdType i = 0; i < grid.GetNumberOfCells(); ++i) {
-    vtkCell& cell = *grid.GetCell(i);
-    if (cell.GetNumberOfPoints() != p4::node_count)
-      throw ReadError(file, "it holds cells other than 15-node triangles");
-    auto& nodes = triangles_.emplace_back();
-    for (int n = 0; n < p4::node_count; ++n)
-      nodes[static_cast<std::size_t>(n)] = static_cast<int>(cell.GetPointId(n));
+    const auto& nodes = triangles_.emplace_back(nodes_of(file, grid, i));
     mesh_.triangles.push_back({nodes[0], nodes[1], nodes[2]});
     mesh_.soils.push_back(0);
   }
   if (triangles_.empty()) throw ReadError(file, "it holds no triangles");
-  arrays_ = read_arrays(*grid.GetPointData());
+  arrays_ = read_arrays(file, *grid.GetPointData());
   locator_.emplace(mesh_);
 }
 

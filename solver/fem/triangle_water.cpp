@@ -16,10 +16,10 @@ std::vector<TriangleWater> water_of_triangles(const WaterCase& water, const Mesh
         std::minmax({mesh.vertices[v[0]].x(), mesh.vertices[v[1]].x(), mesh.vertices[v[2]].x()});
     const auto [low, high] =
         std::minmax({mesh.vertices[v[0]].y(), mesh.vertices[v[1]].y(), mesh.vertices[v[2]].y()});
-    const auto cut = [&](const char* what, double where) {
+    const auto cut = [x = left, y = low](const char* what, double where) {
       throw std::runtime_error(
           fmt::format("mesh: {} at {} m cuts through the triangle around ({}, {}); the mesh must follow it",
-                      what, where, left, low));
+                      what, where, x, y));
     };
     for (const WaterStretch& stretch : water.stretches) {
       if (right <= stretch.x_from + tiny || left >= stretch.x_to - tiny) continue;

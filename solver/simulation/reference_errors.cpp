@@ -83,7 +83,7 @@ std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation)
   const auto [column, bottom] = reference_column(scene);
   const FiniteStrainColumn exact = exact_column(scene, column);
   const Particles& p = simulation.model().particles;
-  const auto height = [&](std::size_t i) { return p.start[i].y() - bottom; };
+  const auto height = [&p, low = bottom](std::size_t i) { return p.start[i].y() - low; };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };
   return {
       {"EffectiveStress_XX", norms(

@@ -38,6 +38,15 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
   return runaways;
 }
 
+/// What changes of particles; the rest the case gives.
+void visit_particles(StateArchive& state, Particles& p) {
+  state.array("position", p.position);
+  state.array("velocity", p.velocity);
+  state.array("stress", p.stress);
+  state.array("pore_pressure", p.pore_pressure);
+  state.array("density", p.density);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
@@ -138,18 +147,14 @@ void Simulation::drift() {
 }
 
 void Simulation::visit(StateArchive& state) {
-  Particles& p = model_.particles;
   bool prepared = accelerations_valid_;
   Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
   state.value("step", step_);
   state.value("prepared", prepared);
   state.value("searches", counts_then.searches);
   state.value("refreshes", counts_then.refreshes);
-  state.array("position", p.position);
-  state.array("velocity", p.velocity);
-  state.array("stress", p.stress);
-  state.array("pore_pressure", p.pore_pressure);
-  state.array("density", p.density);
+  visit_particles(state, model_.particles);
+  for (std::optional<State>* remembered : {&good_, &good_before_}) visit_remembered(state, *remembered);
   state.value("relaxation_stiffness", relaxation_.stiffness);
   state.value("relaxation_inertia", relaxation_.inertia);
   state.value("relaxation_damping", relaxation_.damping);
@@ -159,6 +164,16 @@ void Simulation::visit(StateArchive& state) {
   accelerations_valid_ = false;
   if (prepared) accelerations();
   counts = counts_then;
+}
+
+void Simulation::visit_remembered(StateArchive& state, std::optional<State>& remembered) const {
+  bool is_there = remembered.has_value();
+  state.value("remembered", is_there);
+  if (!is_there) return remembered.reset();
+  if (state.restoring()) remembered = State{model_.particles, accelerations_, 0};
+  state.value("remembered_step", remembered->step);
+  visit_particles(state, remembered->particles);
+  state.array("remembered_accelerations", remembered->accelerations);
 }
 
 /// What the conventional form throws off is fast in the end, but that it left is what went wrong first.

@@ -101,6 +101,7 @@ class Simulation {
     std::vector<Vec2> accelerations;
     std::int64_t step = 0;
   };
+  void visit_remembered(StateArchive& state, std::optional<State>& remembered) const;
   std::optional<State> good_, good_before_;
   double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
 };

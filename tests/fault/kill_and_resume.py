@@ -61,7 +61,7 @@ name = "A"
 position = [1, 1]
 """
 
-# The last one has a reference that is renewed some times, and ends in equilibrium.
+# "renewed" has a reference that is renewed many times and ends in equilibrium.
 VARIANTS = {
     "consistent": [],
     "proposed": ["formulation.motion=proposed", "time.end=6"],

@@ -50,7 +50,7 @@ TEST_CASE("a torn last verdict is left out, a wrong one is named with its line")
   const TemporaryFolder folder;
   write_verdicts(folder / "map.csv",
                  {row("1", StabilityClass::accurate), row("2", StabilityClass::accurate)});
-  const std::string text = text_of(folder / "map.csv");
+  const std::string text = content(folder / "map.csv");
   put(folder / "torn.csv", text.substr(0, text.size() - 9));
   CHECK(read_verdicts(folder / "torn.csv").size() == 1);
   put(folder / "wrong.csv", text + "a,b,c\n");
