@@ -75,7 +75,8 @@ void declare(Fields& f, ParticlesCase& c) {
   f.choice(
       Key("arrangement", "",
           "`lattice`: square cells with their centre in the soil; `fitted`: cells clipped by the outline; "
-          "`disordered`: cells around randomly displaced points."),
+          "`disordered`: cells around randomly displaced points; `surface`: cells with their middle on free "
+          "surfaces and their ends at walls (with smoothing_ratio = 1 a linear stress is then exact)."),
       c.arrangement, arrangements);
   const bool disordered = c.arrangement == Arrangement::disordered;
   f.number(Key("disorder", "", "Largest random displacement over spacing.")

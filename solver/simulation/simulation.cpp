@@ -4,6 +4,7 @@
 
 #include "solver/monitor/energy.hpp"
 #include "solver/monitor/instability.hpp"
+#include "solver/parallel.hpp"
 #include "solver/simulation/leapfrog.hpp"
 
 namespace porosph {
@@ -12,6 +13,28 @@ double time_step(const Case& scene, const Model& model) {
   const double largest = scene.time.courant * model.smoothing_length / model.wave_speed;
   return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
 }
+
+namespace {
+
+/// Kicks and moves particles first to last - 1; returns how many of them are faster than `limit`, the square
+/// of a speed, or not finite. One loop over plain numbers, so that it becomes vector code.
+std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, double dt, double limit,
+                            Particles& p, const std::vector<Vec2>& accelerations) {
+  double *v = p.velocity.data()->data(), *x = p.position.data()->data();
+  const double* a = accelerations.data()->data();
+  std::int64_t runaways = 0;
+#pragma omp simd reduction(+ : runaways)
+  for (std::size_t i = first; i < last; ++i) {
+    const double vx = kick.keep * v[2 * i] + kick.gain * a[2 * i];
+    const double vy = kick.keep * v[2 * i + 1] + kick.gain * a[2 * i + 1];
+    v[2 * i] = vx, v[2 * i + 1] = vy;
+    x[2 * i] += dt * vx, x[2 * i + 1] += dt * vy;
+    runaways += vx * vx + vy * vy < limit ? 0 : 1;
+  }
+  return runaways;
+}
+
+}  // namespace
 
 Simulation::Simulation(const Case& scene)
     : scene_(scene),
@@ -44,7 +67,8 @@ std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
   if (step_ == 0) return v;
   const auto a = accelerations();
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] = half_kick(v[i], a[i], damping(), dt_);
+  const Kick kick = half_kick(damping(), dt_);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
 }
 
@@ -69,9 +93,7 @@ void Simulation::displace(std::span<const Vec2> displacement, int steps) {
     for (std::size_t i = 0; i < p.size(); ++i) p.position[i] += dt_ * p.velocity[i];
     dynamics_->strain(dt_);
   }
-  if (model_.water.present())
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
+  if (model_.water.present()) model_.water.pore_pressures(p, 0, p.size());
   for (Vec2& v : p.velocity) v.setZero();
   dynamics_->prepare();
   dynamics_->strain(0);
@@ -81,18 +103,39 @@ void Simulation::displace(std::span<const Vec2> displacement, int steps) {
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
 void Simulation::drift() {
   Particles& p = model_.particles;
-  const double c = damping(), dt = dt_;
-  const bool first = step_ == 0, wet = model_.water.present();
-  bool runaway = false;
-#pragma omp parallel for schedule(static) reduction(|| : runaway)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.velocity[i] = (first ? first_kick : kick)(p.velocity[i], accelerations_[i], c, dt);
-    p.position[i] += dt * p.velocity[i];
-    if (wet) p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
-    runaway = runaway || !(p.velocity[i].squaredNorm() < model_.wave_speed * model_.wave_speed);
+  const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
+  const bool wet = model_.water.present();
+  const double limit = model_.wave_speed * model_.wave_speed;
+  std::int64_t runaways = 0;
+#pragma omp parallel reduction(+ : runaways)
+  {
+    const auto [first, last] = thread_range(p.size());
+    runaways = move_particles(first, last, kick, dt_, limit, p, accelerations_);
+    if (wet) model_.water.pore_pressures(p, first, last);
   }
-  runaway_ = runaway;
-  if (runaway) instability_ = find_runaway(model_, time() + dt);
+  runaway_ = runaways > 0;
+  if (runaway_) instability_ = find_runaway(model_, time() + dt_);
+}
+
+void Simulation::visit(StateArchive& state) {
+  Particles& p = model_.particles;
+  bool prepared = accelerations_valid_;
+  Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
+  state.value("step", step_);
+  state.value("prepared", prepared);
+  state.value("searches", counts_then.searches);
+  state.value("refreshes", counts_then.refreshes);
+  state.array("position", p.position);
+  state.array("velocity", p.velocity);
+  state.array("stress", p.stress);
+  state.array("pore_pressure", p.pore_pressure);
+  state.array("density", p.density);
+  relaxation_.visit(state);
+  dynamics_->visit(state);
+  if (!state.restoring()) return;
+  accelerations_valid_ = false;
+  if (prepared) accelerations();
+  counts = counts_then;
 }
 
 void Simulation::look_for_separation() {

@@ -58,6 +58,10 @@ class Simulation {
   /// them at rest. Time does not go on.
   void displace(std::span<const Vec2> displacement, int steps);
 
+  /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
+  /// restored into goes on to the same bits. Throws StateError.
+  void visit(StateArchive& state);
+
  private:
   void drift();
 
