@@ -46,7 +46,7 @@ Case unusual_case() {
   c.water.unit_weight = 1e4 / 3;
   c.water.stretches = {{-never, 1, 2}, {1, 3.3, 1.1}, {5, never, -0.7}};
   c.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 5}}, {BoundaryKind::fixed, {8, 0}, {0, 0}}};
-  c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.0123};
+  c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.07, 0.0123};
   c.loading = {9.8065, true, true, 0.7, 0.001, false, 0, 1.0 / 7};
   c.time = {1.0 / 3, 0.9};
   c.stop = {1e-5, false};
@@ -70,6 +70,7 @@ TEST_CASE("a written case reads as the same case") {
   CHECK(back.water.stretches.size() == 3);
   CHECK(back.water.stretches[0].x_from == -never);
   CHECK(back.water.stretches[1].x_to == 3.3);
+  CHECK(back.formulation.zero_energy_stiffness == 0.07);
   CHECK(back.formulation.refresh_strain == 0.0123);
   CHECK_FALSE(back.formulation.kernel_correction);
   CHECK(back.loading.k0 == 0.7);
