@@ -8,6 +8,27 @@ namespace porosph::app {
 
 namespace po = boost::program_options;
 
+namespace {
+
+/// As a shell would have to be given it.
+std::string quoted(const std::string& argument) {
+  const bool plain = !argument.empty() && argument.find_first_not_of(
+                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./,:=+@%") == std::string::npos;
+  if (plain) return argument;
+  std::string out = "'";
+  for (char c : argument) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string command_line(const std::string& subcommand, const Arguments& arguments) {
+  std::string text = "porosph " + subcommand;
+  for (const std::string& argument : arguments) text += " " + quoted(argument);
+  return text;
+}
+
 bool parse(const Arguments& arguments, const po::options_description& options,
            const po::positional_options_description& positional, const std::string& usage,
            const std::string& examples, po::variables_map& values) {

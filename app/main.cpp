@@ -15,11 +15,13 @@ using namespace porosph::app;
 const std::vector<Command> commands = {
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
+    {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
     {"render", "draw a picture of a series", render_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
+    {"bench", "measure speed, and run time against error", bench_command},
 #endif
 };
 

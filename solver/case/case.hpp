@@ -51,8 +51,9 @@ struct WaterStretch {
   double level = 0;                      ///< y of the free surface [m]
 };
 struct WaterCase {
-  double unit_weight = 9810;  ///< gamma_w [N/m3]
-  std::vector<WaterStretch> stretches;
+  double unit_weight = 9810;            ///< gamma_w [N/m3]
+  std::vector<WaterStretch> stretches;  ///< at t = 0
+  std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
   bool present() const { return !stretches.empty(); }
 };
 
@@ -92,7 +93,6 @@ struct LoadingCase {
   double k0 = -1;      ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
   double damping = 0;  ///< xi of eq. (34) [-]
   bool adaptive_damping = false;  ///< c_d from the lowest vibration of the motion, in place of xi / dt
-  int coarse_starts = 0;          ///< coarser runs to start from, each of twice the spacing of the next
   double damping_until = never;   ///< time at which the damping ends [s]
 };
 

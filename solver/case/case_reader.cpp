@@ -107,6 +107,20 @@ class Reader : public Fields {
     if (const toml::node* node = find(key)) read_point(key, path(key), *node, value);
   }
 
+  void pairs(const Key& key, std::vector<Point>& values) override {
+    const toml::array* items = array(key, "a list of pairs");
+    if (!items) return;
+    if (items->size() < 2 || items->size() > most_points)
+      return fail(key, path(key), fmt::format("must be a list of 2 to {} pairs", most_points));
+    values.assign(items->size(), Point::Zero());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      if (!read_point(key, at, *items->get(i), values[i])) return;
+      if (i > 0 && values[i].x() <= values[i - 1].x())
+        return fail(key, at, fmt::format("must come after {}", values[i - 1].x()));
+    }
+  }
+
   void polygon(const Key& key, Polygon& value) override {
     if (const toml::node* node = find(key)) read_polygon(key, path(key), *node, value);
   }

@@ -36,6 +36,9 @@ class Documenter : public Fields {
   void point(const Key& key, Point& value) override {
     row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");
   }
+  void pairs(const Key& key, std::vector<Point>&) override {
+    row(key, "list of pairs", "", "[[t, y], ...], t increasing, 2 pairs or more");
+  }
   void polygon(const Key& key, Polygon&) override {
     row(key, "polygon", "", "[[x, y], ...], 3 points or more");
   }

@@ -50,6 +50,9 @@ class Writer : public Fields {
     line(key, toml_text(values));
   }
   void point(const Key& key, Point& value) override { line(key, toml_text(value)); }
+  void pairs(const Key& key, std::vector<Point>& values) override {
+    if (!values.empty()) line(key, toml_text(values));
+  }
   void polygon(const Key& key, Polygon& value) override { line(key, toml_text(value)); }
   void polygons(const Key& key, std::vector<Polygon>& values) override { line(key, toml_text(values)); }
 

@@ -4,6 +4,7 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/model/water.hpp"
 
 namespace porosph {
 namespace {
@@ -35,8 +36,8 @@ FormulationCase default_formulation(Motion motion) {
   c.motion = motion;
   if (motion == Motion::consistent) {
     c.bulk_viscosity = 0.06;
-    c.zero_energy_control = 0.05;
-    c.refresh_strain = 0.05;
+    c.zero_energy_control = 0.3;  // both by the map cases/stability/refresh_zero_energy.toml
+    c.refresh_strain = 0.02;
   } else {
     c.artificial_viscosity_alpha = 0.1;
   }
@@ -121,7 +122,8 @@ void declare(Fields& f, SoilCase& c) {
 
 void declare(Fields& f, WaterCase& c) {
   f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0, heaviest));
-  double level = level_everywhere(c) ? c.stretches[0].level : never;
+  const bool moves = !c.level_over_time.empty();
+  double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
   f.number(Key("level", "m", "y of the free surface, the same everywhere.").otherwise("see `stretches`"),
            level, between(-farthest, farthest));
@@ -129,9 +131,14 @@ void declare(Fields& f, WaterCase& c) {
                "A stretch of the free surface, in place of one `level`; soil outside all stretches "
                "is dry."),
            stretches);
-  if ((level < never) == !stretches.empty())
-    f.reject("", stretches.empty() ? "needs either 'level' or 'stretches'"
-                                   : "cannot have both 'level' and 'stretches'");
+  f.pairs(Key("level_over_time", "s, m",
+              "A free surface that rises and falls, in place of one `level`: its y over time, linear between "
+              "these times and constant before and after. Soil keeps the weight that it has at the start.")
+              .otherwise("see `level`"),
+          c.level_over_time);
+  if ((level < never) + !stretches.empty() + !c.level_over_time.empty() != 1)
+    f.reject("", "needs one of 'level', 'stretches' and 'level_over_time'");
+  if (!c.level_over_time.empty()) level = level_at(c, 0);
   c.stretches = level < never ? std::vector<WaterStretch>{{-never, never, level}} : std::move(stretches);
 }
 
@@ -214,12 +221,6 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
-  f.integer(
-      Key("coarse_starts", "",
-          "Start from the displacements at rest of a run with twice the spacing, which itself starts from "
-          "one with twice its spacing, so many times.")
-          .only_if(c.gravity_applied && !c.k0_stress, "k0_stress = false"),
-      c.coarse_starts, between(0, 5));
 }
 
 void declare(Fields& f, TimeCase& c) {

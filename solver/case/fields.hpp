@@ -77,6 +77,7 @@ class Fields {
                     std::string&) = 0;  ///< letters, digits, '_' and '-': fit for paths and column heads
   virtual void words(const Key&, std::vector<std::string>&, std::span<const std::string> allowed) = 0;
   virtual void point(const Key&, Point&) = 0;
+  virtual void pairs(const Key&, std::vector<Point>&) = 0;  ///< [a, b], a increasing; may be left out
   virtual void polygon(const Key&, Polygon&) = 0;
   virtual void polygons(const Key&, std::vector<Polygon>&) = 0;
 

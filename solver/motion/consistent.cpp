@@ -18,12 +18,11 @@ void resize(PlaneTensors& t, std::size_t size) {
   for (auto& component : t) component.resize(size);
 }
 
-double largest_rho_c(const Model& model) {
-  double largest = 0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    largest = std::max(largest, std::sqrt(model.soils[model.particles.soil[i]].constrained_modulus() *
-                                          model.particles.density[i]));
-  return largest;
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too
+/// far in a step, and of the fastest wave, which sets the step.
+double controlled_rho_c(const Model& model) {
+  const auto& density = model.particles.density;
+  return *std::min_element(density.begin(), density.end()) * model.wave_speed;
 }
 
 }  // namespace
@@ -33,7 +32,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       formulation_(formulation),
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) * model.smoothing_length),
+      zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
+                             model.smoothing_length),
       zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {
   const auto add = [&](const LinearElastic& soil) {
     shear_modulus_.push_back(soil.shear_modulus);
@@ -181,6 +181,8 @@ void ConsistentDynamics::make_room() {
   wet_ = model_.water.present() ||
          std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(), [](double w) { return w != 0; });
   if (wet_) pressure_.resize(points_.size());
+  if (zero_energy_rate_ != 0)
+    for (auto& m : motion_) m.resize(points_.size());
   records_.assign(points_.size(), Record{});
   piola_.assign(points_.size(), PlaneTensor{});
   image_positions_.resize(images_.size());
@@ -198,13 +200,15 @@ void ConsistentDynamics::connect_arrays() {
   c.stencils = &stencils_;
   const_data(correction_, c.correction);
   c.reference_density = reference_density_.data();
-  c.fill = p.fill.data();
   c.shear_modulus = shear_modulus_.data(), c.bulk_modulus = bulk_modulus_.data();
   c.no_tension = no_tension_.data();
   c.one_soil = model_.soils.size() == 1;
   c.wet = wet_;
   c.zero_energy_viscosity = zero_energy_viscosity_;
   c.zero_energy_rate = zero_energy_rate_;
+  c.fill = p.fill.data();
+  const auto& motion = zero_energy_rate_ != 0 ? motion_ : velocity_;
+  c.motion[0] = motion[0].data(), c.motion[1] = motion[1].data();
   c.bulk_length = formulation_.bulk_viscosity * model_.smoothing_length;
   c.gravity[0] = model_.gravity.x(), c.gravity[1] = model_.gravity.y();
   data(deformation_, c.deformation);
@@ -247,9 +251,8 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
   return {strain, speed_squared};
 }
 
-/// Velocities of particles and images, beside each other and in the records; `rate` times the displacement
-/// since the reference is added [1/s].
-void ConsistentDynamics::update_velocities(double rate) {
+/// Velocities of particles and images, beside each other and in the records.
+void ConsistentDynamics::update_velocities() {
   const std::vector<Vec2>& v = model_.particles.velocity;
   const std::size_t n = v.size();
   double *vx = velocity_[0].data(), *vy = velocity_[1].data();
@@ -259,16 +262,37 @@ void ConsistentDynamics::update_velocities(double rate) {
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) {
     vx[a] = v[a].x(), vy[a] = v[a].y();
-    if (rate > 0) {
-      const Vec2 displacement = model_.particles.position[a] - points_[a];
-      vx[a] += rate * displacement.x(), vy[a] += rate * displacement.y();
-    }
     record(a);
   }
   for (std::size_t i = 0; i < images_.size(); ++i) {
     const std::int32_t parent = images_[i].parent;
     const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(vx[parent], vy[parent]);
     vx[n + i] = mirrored.x(), vy[n + i] = mirrored.y();
+    record(n + i);
+  }
+}
+
+/// v + rate * displacement, which the zero-energy control acts on. Takes the velocities' place in the records
+/// until the next step, when all have been strained.
+void ConsistentDynamics::update_motion() {
+  if (zero_energy_rate_ == 0) return;
+  const Particles& p = model_.particles;
+  const std::size_t n = p.size();
+  double *mx = motion_[0].data(), *my = motion_[1].data();
+  const auto record = [&](std::size_t i) {
+    if (listed_[i]) records_[i].q[velocity_lane] = mx[i], records_[i].q[velocity_lane + 1] = my[i];
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    const Vec2 since = p.position[a] - points_[a];
+    mx[a] = velocity_[0][a] + zero_energy_rate_ * since.x();
+    my[a] = velocity_[1][a] + zero_energy_rate_ * since.y();
+    record(a);
+  }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const std::int32_t parent = images_[i].parent;
+    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(mx[parent], my[parent]);
+    mx[n + i] = mirrored.x(), my[n + i] = mirrored.y();
     record(n + i);
   }
 }
@@ -341,9 +365,9 @@ void ConsistentDynamics::update_image_fluxes() {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
     const Reflection& wall = reflection_[images_[i].wall];
     const double fill = model_.particles.fill[root_[i]];
-    const Mat2 viscous = get(flux_, parent) - fill * (matrix(piola_[parent]) * correction(parent));
+    const Mat2 control = get(flux_, parent) - fill * matrix(piola_[parent]) * correction(parent);
     const Mat2 flux =
-        fill * (matrix(piola_[n + i]) * correction(n + i)) + wall.velocity * viscous * wall.stress;
+        fill * matrix(piola_[n + i]) * correction(n + i) + wall.velocity * control * wall.stress;
     set(flux_, n + i, flux);
     if (!listed_[n + i]) continue;
     Lanes& q = records_[n + i].q;
@@ -352,8 +376,8 @@ void ConsistentDynamics::update_image_fluxes() {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  if (zero_energy_rate_ > 0) update_velocities(zero_energy_rate_);
   update_pressures();
+  update_motion();
   update_image_fluxes();
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < stencils_.tiles(); ++tile)

@@ -33,10 +33,4 @@ void Relaxation::measure(const Particles& p, std::span<const Vec2> before, std::
   if (stiffness > 0 && inertia > 0) damping = std::min(2 * std::sqrt(stiffness / inertia), 1 / dt);
 }
 
-void Relaxation::visit(StateArchive& state) {
-  state.value("relaxation_stiffness", stiffness);
-  state.value("relaxation_inertia", inertia);
-  state.value("relaxation_damping", damping);
-}
-
 }  // namespace porosph

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "solver/model/particles.hpp"
-#include "solver/state.hpp"
 
 namespace porosph {
 
@@ -28,7 +27,6 @@ struct Relaxation {
   /// that softens as it moves, changes nothing.
   void measure(const Particles& particles, std::span<const Vec2> before, std::span<const Vec2> after,
                double dt);
-  void visit(StateArchive& state);  ///< saves or restores them
 };
 
 }  // namespace porosph

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/simulation/coarse_start.hpp"
 #include "solver/simulation/run.hpp"
 #include "tests/box_of_soil.hpp"
 
@@ -120,24 +119,4 @@ TEST_CASE("adaptive damping does not depend on the number of threads", "[relaxat
   omp_set_num_threads(threads);
   CHECK(a.damping() > 0);
   CHECK(a.damping() == b.damping());
-}
-
-TEST_CASE("a start from coarser runs begins near the state of rest, and comes to the same", "[relaxation]") {
-  Case scene = column();
-  Simulation cold(scene);
-  REQUIRE(run(cold, {}).status == RunStatus::equilibrium);
-  scene.loading.coarse_starts = 2;
-  Simulation warm(scene);
-  start_from_coarse(warm);
-  CHECK(warm.time() == 0);
-  const Particles &start = warm.model().particles, &rest = cold.model().particles;
-  double farthest = 0, settlement = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    farthest = std::max(farthest, (start.displacement(i) - rest.displacement(i)).norm());
-    settlement = std::max(settlement, rest.displacement(i).norm());
-    CHECK(start.velocity[i].isZero(0));
-  }
-  CHECK(farthest < 0.05 * settlement);
-  REQUIRE(run(warm, {}).status == RunStatus::equilibrium);
-  CHECK(largest_difference(warm, cold) < 1e-4);
 }
