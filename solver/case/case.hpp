@@ -93,7 +93,6 @@ struct LoadingCase {
   double k0 = -1;      ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
   double damping = 0;  ///< xi of eq. (34) [-]
   bool adaptive_damping = false;  ///< c_d from the lowest vibration of the motion, in place of xi / dt
-  int coarse_starts = 0;          ///< coarser runs to start from, each of twice the spacing of the next
   double damping_until = never;   ///< time at which the damping ends [s]
 };
 

@@ -78,7 +78,8 @@ void declare(Fields& f, ParticlesCase& c) {
   f.choice(
       Key("arrangement", "",
           "`lattice`: square cells with their centre in the soil; `fitted`: cells clipped by the outline; "
-          "`disordered`: cells around randomly displaced points."),
+          "`disordered`: cells around randomly displaced points; `surface`: cells with their middle on free "
+          "surfaces and their ends at walls (with smoothing_ratio = 1 a linear stress is then exact)."),
       c.arrangement, arrangements);
   const bool disordered = c.arrangement == Arrangement::disordered;
   f.number(Key("disorder", "", "Largest random displacement over spacing.")
@@ -222,12 +223,6 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
-  f.integer(
-      Key("coarse_starts", "",
-          "Start from the displacements at rest of a run with twice the spacing, which itself starts from "
-          "one with twice its spacing, so many times.")
-          .only_if(c.gravity_applied && !c.k0_stress, "k0_stress = false"),
-      c.coarse_starts, between(0, 5));
 }
 
 void declare(Fields& f, TimeCase& c) {

@@ -17,9 +17,7 @@ struct Cells {
 
   int count(const std::vector<Band>& bands) const { return static_cast<int>(bands.size()); }
   Point middle(int cell) const { return {column(cell).middle, row(cell).middle}; }
-  double area(int cell) const {
-    return (column(cell).high - column(cell).low) * (row(cell).high - row(cell).low);
-  }
+  double area(int cell) const { return column(cell).width * row(cell).width; }
   const Band& column(int cell) const { return columns[cell % columns.size()]; }
   const Band& row(int cell) const { return rows[cell / columns.size()]; }
 
@@ -84,8 +82,10 @@ std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Regio
          join_slivers(cut_cells(cells, regions[soil], scene.particles.spacing, at_middle))) {
       Site site{piece.centroid, piece.area, static_cast<int>(soil)};
       if (at_middle[piece.cell]) {
+        const double whole = cells.area(piece.cell);
         site.position = cells.middle(piece.cell);
-        site.fill = piece.area / cells.area(piece.cell);
+        if (std::abs(site.area - whole) < round_off * whole) site.area = whole;  // all alike, to the last bit
+        site.fill = site.area / whole;
       }
       sites.push_back({piece.cell, site});
     }

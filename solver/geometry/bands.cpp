@@ -92,14 +92,20 @@ int half_bands(const Line& from, const Line& to, double spacing) {
 std::vector<Band> bands_along(int axis, const Case& scene, const std::vector<Region>& regions) {
   const std::vector<Line> lines = lines_along(axis, scene, edges_of(regions));
   std::vector<Band> bands;
+  double half_before = 0;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     const Line &from = lines[i], &to = lines[i + 1];
     const int halves = half_bands(from, to, scene.particles.spacing);
     const double half = (to.at - from.at) / halves;
-    if (from.free && i == 0) bands.push_back({from.at, from.at - half, from.at});
-    if (from.free) bands.back().high = from.at + half;
-    for (int k = from.free ? 2 : 1; k <= (to.free ? halves : halves - 1); k += 2)
-      bands.push_back({from.at + k * half, from.at + (k - 1) * half, from.at + (k + 1) * half});
+    const auto add = [&](int k) {
+      bands.push_back({from.at + k * half, from.at + (k - 1) * half, from.at + (k + 1) * half, half + half});
+    };
+    if (from.free && i == 0)
+      add(0);
+    else if (from.free)
+      bands.back().high = from.at + half, bands.back().width = half_before + half;
+    for (int k = from.free ? 2 : 1; k <= (to.free ? halves : halves - 1); k += 2) add(k);
+    half_before = half;
   }
   return bands;
 }

@@ -10,6 +10,7 @@ namespace porosph {
 /// Where the cells of one row or column have their middle and their ends [m].
 struct Band {
   double middle = 0, low = 0, high = 0;
+  double width = 0;  ///< high - low, to the last bit the same for bands that are equally wide
 };
 
 /// Columns (axis 0) or rows (axis 1) over all regions, as wide as the case's spacing up to what makes whole

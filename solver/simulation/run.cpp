@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "solver/simulation/coarse_start.hpp"
-
 namespace porosph {
 namespace {
 
@@ -133,11 +131,6 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   };
 
   if (!progress.has_begun()) {
-    if (s.scene().loading.coarse_starts > 0) {
-      const auto before = Clock::now();
-      start_from_coarse(s);
-      progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
-    }
     progress.energy_at_start = s.energy().total();
     record(true, true);
   }

@@ -110,23 +110,6 @@ void Simulation::advance() {
   if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
 }
 
-void Simulation::displace(std::span<const Vec2> displacement, int steps) {
-  Particles& p = model_.particles;
-  for (int k = 0; k < steps; ++k) {
-    dynamics_->prepare();
-    for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = displacement[i] / (steps * dt_);
-    for (std::size_t i = 0; i < p.size(); ++i) p.position[i] += dt_ * p.velocity[i];
-    dynamics_->strain(dt_);
-  }
-  if (model_.water.present())
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
-  for (Vec2& v : p.velocity) v.setZero();
-  dynamics_->prepare();
-  dynamics_->strain(0);
-  accelerations_valid_ = false;
-}
-
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
 void Simulation::drift() {
   Particles& p = model_.particles;

@@ -73,10 +73,6 @@ class Simulation {
   void visit(StateArchive& state);
   double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
 
-  /// Moves the particles by these displacements [m], all at once but in so many steps of strain, and leaves
-  /// them at rest. Time does not go on.
-  void displace(std::span<const Vec2> displacement, int steps);
-
  private:
   void drift();
   void name_breakdown(double time);
