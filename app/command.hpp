@@ -46,6 +46,7 @@ int render_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int fem_command(const Arguments& arguments);
+int stability_command(const Arguments& arguments);
 int bench_command(const Arguments& arguments);
 
 }  // namespace porosph::app

@@ -15,6 +15,7 @@ using namespace porosph::app;
 const std::vector<Command> commands = {
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
+    {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
     {"render", "draw a picture of a series", render_command},

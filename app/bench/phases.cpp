@@ -72,7 +72,7 @@ class Subject {
                                        timed([&] { find_neighbours(position, position.size(), reach); }).cpu);
     into["geometry made anew"].push_back(once * first_geometry_);
     into["monitoring"].push_back(once * timed([&] {
-                                          simulation_->look_for_separation();
+                                          simulation_->look_for_breakdown();
                                           simulation_->unbalanced_force_ratio();
                                         }).cpu);
     into["frame written"].push_back(

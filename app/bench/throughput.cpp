@@ -68,7 +68,7 @@ struct Run {
     const Seconds t = now() - start;
     omp_set_num_threads(1);
     if (simulation->instability())
-      throw std::runtime_error(contender.name + ": " + *simulation->instability());
+      throw std::runtime_error(contender.name + ": " + simulation->instability()->message);
     rates[threads].push_back(particles() * static_cast<double>(steps) / t.of(threads));
     if (threads == 1) step_seconds = t.cpu / static_cast<double>(steps);
   }
