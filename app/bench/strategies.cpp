@@ -68,6 +68,8 @@ std::vector<Plan> plans(bool quick) {
               &stiff = scenes()[3];
   std::vector<Plan> all;
   if (quick) {
+    for (const Scene& scene : {foundation, embankment})
+      add(all, scene, consistent_form, fast_strategy, {0.5});
     for (const Scene& scene : {column, foundation}) {
       add(all, scene, plain_form, paper_strategy, {0.5});
       add(all, scene, consistent_form, paper_strategy, {0.5});
@@ -75,8 +77,6 @@ std::vector<Plan> plans(bool quick) {
     }
     add(all, column, consistent_form, refresh_strategy, {0.2});
     add(all, embankment, consistent_form, rest_strategy, {0.4});
-    for (const Scene& scene : {foundation, embankment})
-      add(all, scene, consistent_form, fast_strategy, {0.5});
     return all;
   }
   add(all, column, consistent_form, refresh_strategy, {0.2});

@@ -19,7 +19,7 @@ namespace {
 /// Runs shorter than this are made three times [s].
 double worth_repeating(bool quick) { return quick ? 0.5 : 3; }
 
-constexpr double until = 0.97;  ///< of all the time; the rest is for pictures
+constexpr double until = 0.95;  ///< of all the time; the rest is for pictures
 
 std::string name_of(const Plan& p) {
   return fmt::format("{}, {}, {}, spacing {:.3g} m", p.scene.name, p.form, p.strategy, p.spacing);
