@@ -48,8 +48,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   o.bench.cases = cases;
   if (o.bench.threads < 1 || o.bench.threads > 1024)
     throw UsageError(fmt::format("--threads = {}: must be from 1 to 1024", o.bench.threads));
-  if (o.bench.particles < 1000)
-    throw UsageError(fmt::format("--particles = {}: must be at least 1000", o.bench.particles));
+  if (o.bench.particles < 100)
+    throw UsageError(fmt::format("--particles = {}: must be at least 100", o.bench.particles));
   const auto& names = bench::measurement_names();
   for (const std::string& name : o.only)
     if (std::find(names.begin(), names.end(), name) == names.end())

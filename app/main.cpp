@@ -1,6 +1,7 @@
 // porosph: one program, one subcommand per job.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <iostream>
 
 #include "app/command.hpp"
@@ -53,6 +54,7 @@ int dispatch(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow further is an error like a full disk
   try {
     return dispatch(Arguments(argv + 1, argv + argc));
   } catch (const porosph::CaseError& error) {

@@ -16,7 +16,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stderr)) != 0) {}
+Progress::Progress(bool quiet, const Simulation& s)
+    : first_step_(s.step()), quiet_(quiet), terminal_(isatty(fileno(stderr)) != 0) {}
 
 void Progress::show(const Simulation& s) {
   const auto now = Clock::now();
@@ -24,7 +25,7 @@ void Progress::show(const Simulation& s) {
   if (quiet_ || pause.count() < (terminal_ ? 0.2 : 10)) return;
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double steps = static_cast<double>(s.step());
+  const double steps = static_cast<double>(s.step() - first_step_);
   const double rate = steps * static_cast<double>(s.model().particles.size()) / elapsed;
   const double left = elapsed * static_cast<double>(s.last_step() - s.step()) / steps;
   const std::string line =

@@ -11,12 +11,13 @@ namespace porosph::app {
 /// error.
 class Progress {
  public:
-  explicit Progress(bool quiet);
+  Progress(bool quiet, const Simulation& simulation);
   void show(const Simulation& simulation);
   void finish();  ///< leaves the line that was written over
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::int64_t first_step_;
   bool quiet_, terminal_, line_open_ = false;
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };

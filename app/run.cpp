@@ -1,6 +1,5 @@
 // porosph run: computes a case and keeps its files.
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <csignal>
 #include <filesystem>
@@ -8,17 +7,14 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/memory.hpp"
 #include "app/progress.hpp"
+#include "app/results.hpp"
 #include "app/summarise.hpp"
+#include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/output/fields.hpp"
-#include "vtk_io/run_folder/atomic_file.hpp"
-#include "vtk_io/run_folder/history_csv.hpp"
-#include "vtk_io/run_folder/summary_json.hpp"
-#ifdef POROSPH_HAS_VTK
-#include "vtk_io/particle_series.hpp"
-#endif
+#include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph::app {
 namespace {
@@ -37,7 +33,8 @@ struct Options {
   std::filesystem::path case_file, folder;
   std::vector<std::string> overrides;
   int threads = 0;
-  bool frames = true, quiet = false;
+  double checkpoint_every = 60;  // s of wall time
+  bool frames = true, quiet = false, resume = false, force = false;
 };
 
 std::optional<Options> read_options(const Arguments& arguments) {
@@ -50,6 +47,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "replaces a setting of the case; may be given again, e.g. formulation.motion=proposed")(
       "threads", po::value(&o.threads)->value_name("N"),
       "threads to compute with (default: the cores that the particles keep busy)")(
+      "resume", "go on from the last checkpoint, if there is one, to the same results")(
+      "checkpoint-every", po::value(&o.checkpoint_every)->value_name("SECONDS")->default_value(60),
+      "of wall time between checkpoints; an interrupted run leaves one, too")(
+      "force", "replace another case's results, or an interrupted run")(
       "no-frames", "write history and summary only")("quiet", "say nothing unless something is wrong");
   po::positional_options_description positional;
   positional.add("case", 1);
@@ -57,7 +58,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "run CASE.toml [options]",
              "  porosph run cases/foundation.toml\n"
              "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
-             "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n",
+             "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n"
+             "  porosph run cases/foundation.toml --resume\n",
              values))
     return std::nullopt;
   o.case_file = case_file;
@@ -65,6 +67,12 @@ std::optional<Options> read_options(const Arguments& arguments) {
       folder.empty() ? std::filesystem::path("results") / o.case_file.stem() : std::filesystem::path(folder);
   o.frames = values.count("no-frames") == 0;
   o.quiet = values.count("quiet") > 0;
+  o.resume = values.count("resume") > 0;
+  o.force = values.count("force") > 0;
+  if (o.resume && o.force)
+    throw UsageError("--resume goes on with a run and --force begins it anew: give one");
+  if (!(o.checkpoint_every > 0))
+    throw UsageError(fmt::format("--checkpoint-every = {}: must be > 0 s", o.checkpoint_every));
   if (values.count("threads") > 0 && (o.threads < 1 || o.threads > 1024))
     throw UsageError(fmt::format("--threads = {}: must be from 1 to 1024", o.threads));
 #ifndef POROSPH_HAS_VTK
@@ -75,51 +83,61 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-/// The folder's files, fed by the run.
-class Results {
- public:
-  Results(const Options& options, const Simulation& simulation)
-      : folder_(options.folder), history_(prepared(options.folder, simulation), history_columns(simulation)) {
-#ifdef POROSPH_HAS_VTK
-    if (options.frames) series_.emplace(folder_);
-#endif
-  }
-
-  void frame([[maybe_unused]] Simulation& s) {
-#ifdef POROSPH_HAS_VTK
-    if (series_) series_->write(make_frame(s, s.scene().output.fields));
-#endif
-  }
-  void row(const std::vector<double>& values) { history_.append(values); }
-  void finish(const Summary& summary) {
-    history_.flush();
-    write_summary(folder_ / "summary.json", summary);
-  }
-
- private:
-  static std::filesystem::path prepared(const std::filesystem::path& folder, const Simulation& s) {
-    make_folder(folder);
-    write_file(folder / "case.toml", write_case(s.scene()));
-    return folder / "history.csv";
-  }
-
-  std::filesystem::path folder_;
-  HistoryWriter history_;
-#ifdef POROSPH_HAS_VTK
-  std::optional<SeriesWriter> series_;
-#endif
-};
-
-/// More threads than this would wait for each other.
-int useful_threads(std::size_t particles) {
-  constexpr std::size_t particles_per_thread = 4000;
-  return std::clamp(static_cast<int>(particles / particles_per_thread), 1, omp_get_num_procs());
-}
-
 int exit_of(RunStatus status) {
   if (status == RunStatus::unstable) return Exit::unstable;
   return status == RunStatus::interrupted ? Exit::interrupted : Exit::done;
 }
+
+/// The state from which a run goes on.
+struct LeftOff {
+  RunProgress progress;
+  double wall_seconds = 0;
+
+  void visit(StateArchive& state, Simulation& simulation) {
+    simulation.visit(state);
+    progress.visit(state);
+    state.value("wall_seconds", wall_seconds);
+  }
+};
+
+std::optional<FoundState> find_sound_state(const std::filesystem::path& folder,
+                                           const std::string& case_text) {
+  try {
+    return find_state(folder, case_text);
+  } catch (const ReadError& error) {
+    throw ReadError(error, "; --force begins the run anew");
+  }
+}
+
+/// Puts the simulation where the folder's checkpoint left off; nothing if there is none.
+std::optional<LeftOff> restore(const std::filesystem::path& folder, const std::string& case_text,
+                               Simulation& simulation) {
+  const auto found = find_sound_state(folder, case_text);
+  if (!found) return std::nullopt;
+  if (!found->note.empty()) std::cerr << "porosph: " << found->note << "; the checkpoint before it is used\n";
+  LeftOff left_off;
+  try {
+    StateReader reader(found->state);
+    left_off.visit(reader, simulation);
+    reader.finish();
+  } catch (const StateError& error) {
+    throw ReadError(folder / "checkpoint.bin", error.what());
+  }
+  return left_off;
+}
+
+/// Says when a checkpoint is due.
+class Interval {
+ public:
+  explicit Interval(double seconds) : seconds_(seconds) {}
+  bool over() const { return std::chrono::duration<double>(Clock::now() - start_).count() >= seconds_; }
+  void restart() { start_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace
 
@@ -127,27 +145,57 @@ int run_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
   const auto start = std::chrono::steady_clock::now();
-  Simulation simulation(read_case(options->case_file, options->overrides));
-  omp_set_num_threads(options->threads > 0 ? options->threads
-                                           : useful_threads(simulation.model().particles.size()));
-  warn_of_known_failures(simulation.scene());
-  Results results(*options, simulation);
-  if (!options->quiet)
+  std::signal(SIGINT, catch_signal);
+  std::signal(SIGTERM, catch_signal);
+  const Case scene = read_case(options->case_file, options->overrides);
+  const std::string case_text = write_case(scene);
+  if (!options->force) check_owner(options->folder, case_text, options->resume);
+  if (options->resume) {
+    if (const auto done = finished_summary(options->folder)) {
+      if (!options->quiet) fmt::print("nothing to resume in {}: {}", options->folder.string(), tell(*done));
+      return exit_of(done->status);
+    }
+  }
+  check_memory(scene);
+  warn_of_known_failures(scene);
+  Simulation simulation(scene);
+  use_threads(options->threads, simulation.model().particles.size());
+  const auto left_off =
+      options->resume ? restore(options->folder, case_text, simulation) : std::optional<LeftOff>();
+  Results results = left_off ? Results(options->folder, simulation, options->frames, left_off->progress)
+                             : Results(options->folder, simulation, options->frames);
+  if (!options->quiet) {
     fmt::print("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,
                simulation.model().particles.size(), simulation.last_step(), simulation.scene().time.end,
                options->folder.string());
+    if (options->resume)
+      fmt::print("{}\n", left_off ? fmt::format("goes on from {:.6g} s", simulation.time())
+                                  : "there is no checkpoint to go on from: begins at the start");
+  }
   std::fflush(stdout);
 
-  std::signal(SIGINT, catch_signal);
-  std::signal(SIGTERM, catch_signal);
-  Progress progress(options->quiet);
-  const RunOutcome outcome = run(simulation, {.frame = [&](Simulation& s) { results.frame(s); },
-                                              .history = [&](const auto& row) { results.row(row); },
-                                              .progress = [&](const Simulation& s) { progress.show(s); },
-                                              .interrupted = [] { return signal_caught != 0; }});
+  const auto wall_seconds = [&] {
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
+    return now.count() + (left_off ? left_off->wall_seconds : 0);
+  };
+  Progress progress(options->quiet, simulation);
+  Interval since_checkpoint(options->checkpoint_every);
+  const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {
+    if (!ending && !since_checkpoint.over()) return;
+    StateWriter state;
+    LeftOff{p, wall_seconds()}.visit(state, s);
+    results.checkpoint(state.content());
+    since_checkpoint.restart();
+  };
+  const RunOutcome outcome = run(simulation,
+                                 {.frame = [&](Simulation& s) { results.frame(s); },
+                                  .history = [&](const auto& row) { results.row(row); },
+                                  .progress = [&](const Simulation& s) { progress.show(s); },
+                                  .interrupted = [] { return signal_caught != 0; },
+                                  .checkpoint = keep},
+                                 left_off ? left_off->progress : RunProgress{});
   progress.finish();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  const Summary summary = summarise(simulation, outcome, wall.count());
+  const Summary summary = summarise(simulation, outcome, wall_seconds());
   results.finish(summary);
   if (!options->quiet) std::cout << tell(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)

@@ -4,8 +4,9 @@ function(porosph_flags target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-    -Woverloaded-virtual -Wduplicated-cond -Wlogical-op
-    -Wno-restrict  # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
+    -Woverloaded-virtual
+    # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
+    $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wno-restrict>
     $<$<BOOL:${POROSPH_WERROR}>:-Werror>
     $<$<CONFIG:Release>:-O3>
     -fno-math-errno -fno-trapping-math  # square roots and comparisons in vector code; no result changes

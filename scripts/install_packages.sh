@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests
+# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|benchmarks
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
+benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
 
 case "${1:-}" in
   compute) wanted=("${compute[@]}") ;;
   release) wanted=("${release[@]}") ;;
   tests) wanted=("${tests[@]}") ;;
-  *) echo "usage: $0 compute|release|tests" >&2; exit 2 ;;
+  benchmarks) wanted=("${benchmarks[@]}") ;;
+  *) echo "usage: $0 compute|release|tests|benchmarks" >&2; exit 2 ;;
 esac
 
 missing=()

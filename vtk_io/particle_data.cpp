@@ -4,6 +4,7 @@
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -83,7 +84,7 @@ FrameField field_of(vtkDataArray& array) {
     const char* name = array.GetComponentName(c);
     field.components.push_back(name != nullptr ? name : std::to_string(c));
   }
-  if (auto* integers = vtkTypeInt32Array::FastDownCast(&array)) {
+  if (auto* integers = vtkIntArray::FastDownCast(&array)) {  // 32 bits
     const auto* begin = integers->GetPointer(0);
     field.values = std::vector<std::int32_t>(begin, begin + integers->GetNumberOfValues());
   } else {

@@ -10,6 +10,7 @@
 #include "vtk_io/frame_file.hpp"
 #include "vtk_io/paraview_script.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
 namespace fs = std::filesystem;
@@ -41,6 +42,10 @@ SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions op
   SeriesWriter series(std::move(folder), options);
   series.frames_ = read_pvd(series.pvd());
   std::erase_if(series.frames_, [&](const SeriesFrame& frame) { return frame.time > time; });
+  if (series.frames_.empty() || series.frames_.back().time != time) {
+    throw ReadError(series.pvd(),
+                    fmt::format("it has no frame at {} s: cannot be continued from there", time));
+  }
   series.write_pvd();
   series.remove_unnamed_frames();
   return series;

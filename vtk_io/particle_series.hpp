@@ -29,8 +29,8 @@ class SeriesWriter {
   /// Makes `folder` where there is none.
   explicit SeriesWriter(std::filesystem::path folder, SeriesOptions options = {});
 
-  /// Goes on with the series in `folder`, without its frames later than `time` [s].
-  /// Throws ReadError if its .pvd cannot be read.
+  /// Goes on with the series in `folder` after its frame at `time` [s]; later ones are removed.
+  /// Throws ReadError if its .pvd cannot be read or names no such frame.
   static SeriesWriter resume(std::filesystem::path folder, double time, SeriesOptions options = {});
 
   /// Adds a frame. Throws std::invalid_argument if it is not consistent or earlier than the last.

@@ -33,7 +33,7 @@ void put_rates(Rows& rows, const Throughput& t) {
       const double least = form == default_contender ? asked : asked / 2;
       put(rows, fmt::format("{}, {} particles", form, p->particles),
           fmt::format("at least {:g} M particle-steps/s", least),
-          text({p->rate.median / million, p->rate.low / million, p->rate.high / million}) + " M",
+          text({p->rate.median / million, p->rate.low / million, p->rate.high / million}),
           p->rate.median / million / least);
     }
 }

@@ -25,9 +25,9 @@ Study frame(const BenchOptions& options, const std::string& command) {
 
 StudySection asked_section(const Rows& rows) {
   return {.heading = "What is asked and what was measured",
-          .paragraphs =
-              {"Medians of repeated runs that take turns; in brackets the lowest and the highest. Ratios "
-               "hold better than absolute numbers where other programs share the machine."},
+          .paragraphs = {"Medians of repeated runs that take turns; with half the range from the lowest to "
+                         "the highest. Ratios hold better than absolute numbers where other programs share "
+                         "the machine."},
           .tables = {{.caption = "", .rows = rows, .numbers = false}},
           .pictures = {}};
 }

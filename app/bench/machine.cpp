@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "solver/motion/kernels/vector_units.hpp"
+
 namespace porosph::bench {
 namespace {
 
@@ -30,17 +32,13 @@ std::int64_t kilobytes(const char* file, const std::string& key) {
   return 1024 * value;
 }
 
-const char* vector_units() {
-  if (__builtin_cpu_supports("avx512f")) return "AVX-512";
-  return __builtin_cpu_supports("avx2") ? "AVX2" : "SSE2";
-}
-
 }  // namespace
 
 std::string describe_machine() {
   const std::string model = entry("/proc/cpuinfo", "model name");
-  return fmt::format("{}, {} cores, {}, {:.0f} GiB of memory, GCC {}", model.empty() ? "unknown CPU" : model,
-                     omp_get_num_procs(), vector_units(),
+  return fmt::format("{}, {} cores, vector units {}, {:.0f} GiB of memory, GCC {}",
+                     model.empty() ? "unknown CPU" : model, omp_get_num_procs(),
+                     vector_units_name(vector_units()),
                      static_cast<double>(kilobytes("/proc/meminfo", "MemTotal")) / (1 << 30), __VERSION__);
 }
 

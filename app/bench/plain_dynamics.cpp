@@ -189,4 +189,6 @@ void PlainDynamics::strain(double dt) {
   }
 }
 
+void PlainDynamics::visit(StateArchive&) { throw std::logic_error("the plain loops keep no checkpoints"); }
+
 }  // namespace porosph::bench

@@ -23,6 +23,8 @@ class PlainDynamics final : public Dynamics {
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  /// Throws std::logic_error: a measurement is not saved.
+  void visit(StateArchive& state) override;
 
  private:
   struct Point {

@@ -15,7 +15,8 @@ Spread spread_of(std::vector<double> values) {
 }
 
 std::string text(const Spread& s) {
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", s.median, s.low, s.high);
+  const double half = 50 * (s.high - s.low) / s.median;  // of the range [%]
+  return s.high > s.low ? fmt::format("{:.3g} ± {:.0f} %", s.median, half) : fmt::format("{:.3g}", s.median);
 }
 
 }  // namespace porosph::bench

@@ -13,7 +13,7 @@ struct Spread {
 /// At least one value.
 Spread spread_of(std::vector<double> values);
 
-/// "12.3 (11.9 to 12.6)".
+/// "12.3 ± 3 %": the median and half the range from the lowest to the highest.
 std::string text(const Spread& spread);
 
 }  // namespace porosph::bench

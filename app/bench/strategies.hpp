@@ -11,6 +11,9 @@ struct Scene {
   bool exact;  ///< compared with an exact column; else with finite elements
   /// Damping xi near critical for the lowest mode, per Courant number and metre of spacing: c_d = xi / dt.
   double critical_damping;
+  std::vector<std::string> overrides = {};
+  double end = 4;              ///< the longest a run may take [s]
+  std::string fast_file = {};  ///< the case that is made to come to rest soonest
 };
 
 const std::vector<Scene>& scenes();
@@ -22,6 +25,7 @@ struct Plan {
   double spacing;
   bool plain = false;
 
+  std::string file() const;
   std::vector<std::string> overrides() const;
 };
 

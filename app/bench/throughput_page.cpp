@@ -111,10 +111,9 @@ StudySection show_throughput(const Throughput& t, const Bench& bench) {
       .heading = "Throughput",
       .paragraphs =
           {"Particles that advance by one step in a second, of the foundation at different spacings. The "
-           "ways "
-           "take turns, a slice of time each, in several rounds; shown are the medians, in brackets the "
-           "lowest "
-           "and the highest. With one thread the core's own time counts, with several the time on the clock.",
+           "ways take turns, a slice of time each, in several rounds; shown are the medians and half the "
+           "range from the lowest to the highest. With one thread the core's own time counts, with several "
+           "the time on the clock.",
            fmt::format(
                "The ceilings are measured in the same run: how often a second the memory that a particle "
                "takes could be read once, and how often the {:.0f} operations that its equations need "

@@ -33,6 +33,10 @@ class TimedDynamics final : public Dynamics {
   void strain(double dt) override {
     add(times_.strain, [&] { timed_->strain(dt); });
   }
+  void visit(StateArchive& state) override {
+    timed_->counts = counts;
+    timed_->visit(state);
+  }
 
  private:
   template <class Call>

@@ -26,12 +26,14 @@ double settling_time(const std::vector<Look>& all) {
 
 std::string ending_of(RunStatus status) {
   if (status == RunStatus::equilibrium) return "equilibrium";
+  if (status == RunStatus::interrupted) return "interrupted";
   return status == RunStatus::unstable ? "unstable" : "end of time";
 }
 
 }  // namespace
 
-TimedRun timed_run(const Case& scene, const DynamicsMaker& dynamics, const FemSolution* fem) {
+TimedRun timed_run(const Case& scene, const DynamicsMaker& dynamics, const FemSolution* fem,
+                   const std::function<bool()>& time_is_up) {
   omp_set_num_threads(1);
   Seconds since = now();
   Simulation simulation(scene, dynamics);
@@ -51,7 +53,7 @@ TimedRun timed_run(const Case& scene, const DynamicsMaker& dynamics, const FemSo
                                                   [&](const Simulation& s) {
                                                     if (s.step() % steps_between == 0) look();
                                                   },
-                                              .interrupted = {}});
+                                              .interrupted = time_is_up});
   look();
   return {.particles = static_cast<std::int64_t>(simulation.model().particles.size()),
           .steps = simulation.step(),

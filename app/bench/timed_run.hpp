@@ -1,6 +1,8 @@
 // One run, its time and its error while it goes on.
 #pragma once
 
+#include <functional>
+
 #include "app/bench/reference_stress.hpp"
 #include "app/bench/work_precision.hpp"
 
@@ -13,7 +15,9 @@ struct TimedRun {
   double seconds = 0, settled = 0;  ///< core time as in WorkPoint, making the particles included
 };
 
-/// Runs the case on one thread. What looking at the error takes is not counted.
-TimedRun timed_run(const Case& scene, const DynamicsMaker& dynamics, const FemSolution* fem);
+/// Runs the case on one thread, to its end or until the time is up (then it is "interrupted"). What looking
+/// at the error takes is not counted.
+TimedRun timed_run(const Case& scene, const DynamicsMaker& dynamics, const FemSolution* fem,
+                   const std::function<bool()>& time_is_up = {});
 
 }  // namespace porosph::bench

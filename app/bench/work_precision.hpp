@@ -32,7 +32,7 @@ struct WorkPrecision {
 inline const std::string plain_form = "plain loops", consistent_form = "consistent",
                          fem_form = "finite elements";
 inline const std::string paper_strategy = "C = 0.2, ξ = 0.002", rest_strategy = "large step, stop at rest",
-                         refresh_strategy = "large step, geometry every step";
+                         refresh_strategy = "large step, geometry every step", fast_strategy = "fast case";
 
 WorkPrecision measure_work_precision(Bench& bench);
 

@@ -99,7 +99,9 @@ Rows run_table(const std::vector<LoadedRun>& runs) {
                                              status_text(s.status),
                                              s.formulation,
                                              s.kernel_correction ? "on" : "off",
-                                             fmt::format("{:g}", r.run.scene->loading.damping),
+                                             r.run.scene->loading.adaptive_damping
+                                                 ? "adaptive"
+                                                 : fmt::format("{:g}", r.run.scene->loading.damping),
                                              fmt::format("{}", s.particles),
                                              fmt::format("{}", s.steps),
                                              fmt::format("{:.3g}", s.time_step),

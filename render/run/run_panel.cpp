@@ -98,7 +98,7 @@ std::string formulation_text(const FinishedRun& run) {
   if (!run.scene) return "";
   const FormulationCase& f = run.scene->formulation;
   return std::string(motion_name(f.motion)) + (f.kernel_correction ? "" : ", without kernel correction") +
-         (run.scene->loading.damping > 0 ? "" : ", undamped");
+         (run.scene->loading.damping > 0 || run.scene->loading.adaptive_damping ? "" : ", undamped");
 }
 
 }  // namespace porosph

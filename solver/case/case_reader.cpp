@@ -15,6 +15,7 @@ namespace {
 constexpr std::uintmax_t largest_file = 16 << 20;  // bytes
 constexpr std::size_t most_points = 10000;         // of a polygon
 constexpr std::size_t most_tables = 1000;          // of a list
+constexpr std::size_t most_key_dots = 100;         // in a line
 
 bool is_name(const std::string& text) {
   const auto is_allowed = [](unsigned char c) {
@@ -46,6 +47,18 @@ class Reader : public Fields {
         else
           fail(key, path(key), fmt::format("must be {}{}", range.text(), unit(key)));
       }
+  }
+
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    const toml::node* node = key.is_used ? table_->get(key.name) : nullptr;
+    const auto given = node ? node->value<std::string>() : std::nullopt;
+    if (!given) return is_word = is_word && !node, number(key, value, range);
+    known_.emplace_back(key.name);
+    if (is_word = *given == word; !is_word)
+      fail(key, path(key),
+           fmt::format("must be a number {} or \"{}\"{}", range.text(), word,
+                       did_you_mean(nearest(*given, {std::string(word)}))));
   }
 
   void integer(const Key& key, int& value, const Range& range) override {
@@ -291,7 +304,38 @@ class Reader : public Fields {
   bool lengths_are_right_ = true;
 };
 
+// Dots that are no decimal points: at least all those that stand between the names of dotted keys.
+std::size_t key_dots(std::string_view line) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_word = [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '+' || c == '.';
+  };
+  std::size_t total = 0;
+  for (auto word = line.begin(); word != line.end();) {
+    const auto end = std::find_if_not(word, line.end(), is_word);
+    const auto dots = static_cast<std::size_t>(std::count(word, end, '.'));
+    const auto dot = std::find(word, end, '.');
+    const bool decimal = dots == 1 && dot != word && is_digit(dot[-1]) && dot + 1 != end && is_digit(dot[1]);
+    if (!decimal) total += dots;
+    word = std::find_if(end, line.end(), is_word);
+  }
+  return total;
+}
+
+// toml++ handles tables within tables by recursion, and would use up the stack.
+void check_depth(std::string_view text, std::string_view file_name) {
+  toml::source_position at{1, 1};
+  for (; !text.empty(); ++at.line) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (!line.starts_with('#') && key_dots(line) > most_key_dots)
+      throw CaseError(fmt::format("{}: more than {} dots in a line: keys are not nested so deeply",
+                                  place(file_name, at), most_key_dots));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+  }
+}
+
 toml::table parse_toml(std::string_view text, std::string_view file_name) {
+  check_depth(text, file_name);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

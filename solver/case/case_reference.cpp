@@ -19,6 +19,9 @@ class Documenter : public Fields {
   void number(const Key& key, double& value, const Range& range) override {
     row(key, "number", fmt::to_string(value), range.text());
   }
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word, bool&) override {
+    row(key, "number or text", fmt::to_string(value), fmt::format("{}; `{}`", range.text(), word));
+  }
   void integer(const Key& key, int& value, const Range& range) override {
     row(key, "whole number", fmt::to_string(value), range.text());
   }

@@ -35,6 +35,13 @@ class Writer : public Fields {
     else if (key.is_used)
       result += fmt::format("# {} is not set: {}\n", key.name, key.fallback);
   }
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    if (is_word)
+      line(key, fmt::format("\"{}\"", word));
+    else
+      number(key, value, range);
+  }
   void integer(const Key& key, int& value, const Range&) override { line(key, fmt::to_string(value)); }
   void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
   void text(const Key& key, std::string& value) override { line(key, toml_text(value)); }

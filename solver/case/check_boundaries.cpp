@@ -100,7 +100,9 @@ std::vector<std::size_t> bodies(const Case& c, double tolerance) {
   return body;
 }
 
+/// Rollers hold only across themselves: an upright one carries nothing.
 bool carries(const BoundaryCase& b, const SoilCase& soil, const Case& c, double tolerance) {
+  if (b.kind == BoundaryKind::roller && std::abs(unit(b).x()) < 1e-4) return false;
   Case alone = c;
   alone.soils = {soil};
   return fault_along(alone, b, tolerance).empty();
@@ -117,9 +119,11 @@ std::vector<CaseIssue> unsupported(const Case& c, double tolerance) {
       return false;
     };
     if (!std::any_of(c.boundaries.begin(), c.boundaries.end(), is_carried))
-      issues.push_back({fmt::format("soil[{}]", first),
-                        fmt::format("soil '{}' falls: gravity is applied and no boundary lies on its body",
-                                    c.soils[first].name)});
+      issues.push_back(
+          {fmt::format("soil[{}]", first),
+           fmt::format("soil '{}' falls: gravity is applied and its body has no boundary that carries it, a "
+                       "fixed one or a roller that is not upright",
+                       c.soils[first].name)});
   }
   return issues;
 }

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "solver/case/check_boundaries.hpp"
+#include "solver/case/demand.hpp"
 #include "solver/case/shapes.hpp"
 
 namespace porosph {
 namespace {
 
 using Issues = std::vector<CaseIssue>;
-constexpr double bytes_per_particle = 1000;  // state, about 20 neighbours, their gradients
 constexpr double most_frames = 1e5;
 
 std::string at(std::string_view list, std::size_t i, std::string_view key = "") {
@@ -52,24 +52,35 @@ void check_soils(const Case& c, Issues& issues) {
       issues.push_back({at("soil", i, "polygon"),
                         fmt::format("soil '{}' is {:.4g} m thick, less than particles.spacing = {} m",
                                     c.soils[i].name, width, dx)});
+    else if (width < std::ldexp(dx, c.loading.coarse_starts) * (1 - 1e-9))
+      issues.push_back({"loading.coarse_starts",
+                        fmt::format("soil '{}' is {:.4g} m thick, less than the coarsest spacing, {:.4g} m",
+                                    c.soils[i].name, width, std::ldexp(dx, c.loading.coarse_starts))});
     for (std::size_t j = 0; j < i; ++j) {
       const double common = overlap(c.soils[i], c.soils[j]);
       if (common > 1e-6 * dx * dx)
         issues.push_back({at("soil", i, "polygon"), fmt::format("soils '{}' and '{}' overlap by {:.4g} m2",
                                                                 c.soils[j].name, c.soils[i].name, common)});
+      const double gap = distance(c.soils[i], c.soils[j]);
+      if (gap > 1e-3 * dx && gap < dx * (1 - 1e-9))
+        issues.push_back({at("soil", i, "polygon"),
+                          fmt::format("soils '{}' and '{}' are {:.4g} m apart, less than particles.spacing = "
+                                      "{} m: they must touch, or keep clear of each other",
+                                      c.soils[j].name, c.soils[i].name, gap, dx)});
     }
   }
 }
 
 void check_size(const Case& c, Issues& issues) {
-  const double total = std::accumulate(c.soils.begin(), c.soils.end(), 0.,
-                                       [](double sum, const SoilCase& soil) { return sum + area(soil); });
-  const double particles = total / (c.particles.spacing * c.particles.spacing);
-  if (!(particles <= most_particles))
+  const Demand demand = demand_of(c);
+  if (!(demand.particles <= most_particles))
     issues.push_back(
         {"particles.spacing",
          fmt::format("makes {:.3g} particles, which need about {:.3g} GB of memory; at most {:.0e}",
-                     particles, particles * bytes_per_particle / 1e9, most_particles)});
+                     demand.particles, demand.bytes / 1e9, most_particles)});
+  else if (!(demand.steps <= most_steps))
+    issues.push_back(
+        {"time.end", fmt::format("takes about {:.3g} time steps; at most {:.0e}", demand.steps, most_steps)});
 }
 
 void check_water(const Case& c, Issues& issues) {

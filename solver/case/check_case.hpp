@@ -16,9 +16,7 @@ struct CaseIssue {
 /// Names given twice, and amounts of output nobody can want. Needs values within their ranges, no geometry.
 std::vector<CaseIssue> check_settings(const Case&);
 
-/// Outlines, soils, water, boundaries and probes; whether the particles fit into memory.
+/// Outlines, soils, water, boundaries and probes; whether particles and steps are as many as can be computed.
 std::vector<CaseIssue> check_geometry(const Case&);
-
-inline constexpr double most_particles = 5e7;
 
 }  // namespace porosph

@@ -10,7 +10,7 @@ namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 3> arrangements{"lattice", "fitted", "disordered"};
+constexpr std::array<Names, 4> arrangements{"lattice", "fitted", "disordered", "surface"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
@@ -189,6 +189,11 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
+  f.number(key_of_consistent("zero_energy_stiffness",
+                             "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
+                             "u, u the displacement since kernel gradients were made; 0: viscous only.")
+               .otherwise(fmt::to_string(usual.zero_energy_stiffness)),
+           c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are made anew; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),
@@ -206,12 +211,21 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.k0_stress, "k0_stress = true")
                .otherwise("nu / (1 - nu) of each soil"),
            c.k0, between(0, 10));
-  f.number(Key("damping", "", "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off."),
-           c.damping, between(0, 1));
+  f.number_or(
+      Key("damping", "",
+          "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off. `adaptive`: critical "
+          "for the lowest vibration that the motion contains, to come to rest soonest."),
+      c.damping, between(0, 1), "adaptive", c.adaptive_damping);
   f.number(Key("damping_until", "s", "When the damping ends.")
-               .only_if(c.damping > 0, "damping > 0")
+               .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
+  f.integer(
+      Key("coarse_starts", "",
+          "Start from the displacements at rest of a run with twice the spacing, which itself starts from "
+          "one with twice its spacing, so many times.")
+          .only_if(c.gravity_applied && !c.k0_stress, "k0_stress = false"),
+      c.coarse_starts, between(0, 5));
 }
 
 void declare(Fields& f, TimeCase& c) {

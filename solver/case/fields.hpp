@@ -68,6 +68,8 @@ class Fields {
  public:
   virtual ~Fields() = default;
   virtual void number(const Key&, double&, const Range& = {}) = 0;
+  /// A number, or one word in its place.
+  virtual void number_or(const Key&, double&, const Range&, std::string_view word, bool& is_word) = 0;
   virtual void integer(const Key&, int&, const Range&) = 0;
   virtual void flag(const Key&, bool&) = 0;
   virtual void text(const Key&, std::string&) = 0;

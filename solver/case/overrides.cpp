@@ -55,6 +55,8 @@ Override apply(toml::table& root, const std::string& text) {
   for (const std::string& step : steps)
     if (step.empty()) throw std::runtime_error("the key must be a dotted path, as particles.spacing");
 
+  if (steps.size() > 10) throw std::runtime_error("the key is nested deeper than any");
+
   toml::table* table = &root;
   std::string path;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {

@@ -107,8 +107,11 @@ void Report::add(const std::string& key, std::string_view message, toml::source_
 std::string Report::text() const {
   std::vector<Error> sorted = errors_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Error& a, const Error& b) { return a.at < b.at; });
+  constexpr std::size_t most = 100;
   std::string all;
-  for (const Error& error : sorted) all += (all.empty() ? "" : "\n") + error.text;
+  for (std::size_t i = 0; i < std::min(sorted.size(), most); ++i)
+    all += (all.empty() ? "" : "\n") + sorted[i].text;
+  if (sorted.size() > most) all += fmt::format("\n{}: and {} more errors", file_, sorted.size() - most);
   return all;
 }
 

@@ -25,7 +25,7 @@ class Report {
   void add(const std::string& key, std::string_view message,
            toml::source_position at);  ///< elsewhere in the file
   std::size_t size() const { return errors_.size(); }
-  std::string text() const;  ///< in the order of the file, then of the overrides
+  std::string text() const;  ///< in the order of the file, then of the overrides; the first hundred
 
  private:
   struct Error {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/case/case.hpp"
+#include "solver/model/particles.hpp"
 
 namespace porosph {
 
@@ -48,6 +49,25 @@ class Water {
 
   /// p_w, negative in compression, zero above the level (eq. 12) [Pa].
   double pore_pressure(double x, double y) const { return -water_.unit_weight * std::max(0.0, depth(x, y)); }
+
+  /// p_w of particles first to last - 1, where they are now.
+  void pore_pressures(Particles& p, std::size_t first, std::size_t last) const {
+    const bool everywhere =
+        stretches_.size() == 1 && stretches_[0].x_from == -never && stretches_[0].x_to == never;
+    if (everywhere) {
+      const double level = stretches_[0].level, gamma = water_.unit_weight;
+      const double* x = p.position.data()->data();
+      double* pressure = p.pore_pressure.data();
+#pragma omp simd
+      for (std::size_t i = first; i < last; ++i) {
+        const double depth = level - x[2 * i + 1];
+        pressure[i] = depth > 0 ? -gamma * depth : -0.0;
+      }
+    } else {
+      for (std::size_t i = first; i < last; ++i)
+        p.pore_pressure[i] = pore_pressure(p.position[i].x(), p.position[i].y());
+    }
+  }
 
   /// p_w behind a wall: at the image's height, below the level in front of the wall (a stretch may end there)
   /// [Pa].

@@ -4,34 +4,22 @@
 #include <cmath>
 
 #include "solver/correction/kernel_correction.hpp"
-#include "solver/motion/material_block.hpp"
-#include "solver/parallel.hpp"
+#include "solver/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {
 
-enum : int { t_xx, t_yx, t_xy, t_yy, pressure, v_x, v_y };  // lanes of a record
+enum : int { pressure_lane = 4, velocity_lane = 6 };  // of a record; the flux comes first
 
-Mat2 stress_lanes(const Record& r) {
-  return (Mat2() << r.q[t_xx], r.q[t_xy], r.q[t_yx], r.q[t_yy]).finished();
+Mat2 matrix(const PlaneTensor& t) { return (Mat2() << t[0], t[1], t[2], t[3]).finished(); }
+PlaneTensor plane_tensor(const Mat2& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
+
+void resize(PlaneTensors& t, std::size_t size) {
+  for (auto& component : t) component.resize(size);
 }
 
-void set_stress_lanes(Record& r, const Mat2& t) {
-  r.q[t_xx] = t(0, 0), r.q[t_yx] = t(1, 0), r.q[t_xy] = t(0, 1), r.q[t_yy] = t(1, 1);
-}
-
-/// The rate of deformation behind a wall, from that in front of it.
-Mat2 image_of_rate(const Wall& wall, const Mat2& rate) {
-  const Mat2 r = wall.reflection();
-  return wall.kind == BoundaryKind::fixed ? Mat2(-rate * r) : Mat2(r * rate * r);
-}
-
-Vec2 image_of_velocity(const Wall& wall, const Vec2& v) {
-  return wall.kind == BoundaryKind::fixed ? Vec2(-v) : Vec2(wall.reflection() * v);
-}
-
-/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too far
-/// in a step, and of the fastest wave, which sets the step.
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too
+/// far in a step, and of the fastest wave, which sets the step.
 double controlled_rho_c(const Model& model) {
   const auto& density = model.particles.density;
   return *std::min_element(density.begin(), density.end()) * model.wave_speed;
@@ -39,12 +27,28 @@ double controlled_rho_c(const Model& model) {
 
 }  // namespace
 
-ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model)
+ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
     : model_(model),
       formulation_(formulation),
       kernel_(model.smoothing_length),
+      kernels_(consistent_kernels(units)),
       zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
-                             model.smoothing_length) {}
+                             model.smoothing_length),
+      zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {
+  const auto add = [&](const LinearElastic& soil) {
+    shear_modulus_.push_back(soil.shear_modulus);
+    bulk_modulus_.push_back(soil.bulk_modulus);
+    no_tension_.push_back(soil.no_tension ? 1.0 : 0.0);
+  };
+  if (model.soils.size() == 1)
+    add(model.soils.front());
+  else
+    for (const std::int32_t soil : model.particles.soil) add(model.soils[soil]);
+  for (const Wall& wall : model.walls) {
+    const Mat2 r = wall.reflection();
+    reflection_.push_back({r, wall.kind == BoundaryKind::fixed ? Mat2(-Mat2::Identity()) : r});
+  }
+}
 
 void ConsistentDynamics::prepare() {
   const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
@@ -53,12 +57,21 @@ void ConsistentDynamics::prepare() {
 }
 
 void ConsistentDynamics::refresh() {
-  make_images();
-  make_gradients();
-  make_one_sided_gradients();
+  make_reference();
   start_from_reference();
   have_reference_ = true;
   ++counts.refreshes;
+}
+
+/// Everything that belongs to the reference configuration, for the particles where they are now.
+void ConsistentDynamics::make_reference() {
+  make_images();
+  make_gradients();
+  make_corrections();
+  make_one_sided_gradients();
+  choose_records();
+  make_room();
+  connect_arrays();
 }
 
 void ConsistentDynamics::make_images() {
@@ -76,37 +89,29 @@ void ConsistentDynamics::make_images() {
 void ConsistentDynamics::make_gradients() {
   const Particles& p = model_.particles;
   const std::size_t n = p.size();
-  neighbours_ = find_neighbours(points_, n, kernel_.support());
-  ++counts.searches;
-
   volume_.resize(points_.size());
   reference_density_ = p.density;
-  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a);
+  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a) / p.fill[a];
   for (std::size_t i = 0; i < images_.size(); ++i) volume_[n + i] = volume_[images_[i].parent];
+  stencils_ = make_pair_stencils(points_, n, volume_, kernel_);
+  ++counts.searches;
+}
 
-  gradient_.resize(neighbours_.index.size());
-  weight_.resize(neighbours_.index.size());
-  correction_.assign(points_.size(), Mat2::Identity());
-  gradient_sum_.assign(n, Vec2::Zero());
-  weight_sum_.assign(n, 0.0);
+/// L of eq. (10); that of an image is its parent's, mirrored.
+void ConsistentDynamics::make_corrections() {
+  const std::size_t n = model_.particles.size();
+  resize(correction_, points_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) {
     Mat2 sum = Mat2::Zero();
-    for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-      const std::int32_t b = neighbours_.index[k];
-      const Vec2 to_b = points_[b] - points_[a];
-      weight_[k] = -volume_[b] * kernel_.slope(to_b.norm());
-      const Vec2 g = weight_[k] * to_b;
-      gradient_[k] = {g.x(), g.y()};
-      gradient_sum_[a] += g;
-      weight_sum_[a] += weight_[k];
-      sum += g * to_b.transpose();
-    }
-    if (formulation_.kernel_correction) correction_[a] = correction_matrix(sum);
+    stencils_.for_neighbours(static_cast<std::int32_t>(a), [&](std::int32_t b, const PairGeometry& g) {
+      sum += Vec2(g.x, g.y) * (points_[b] - points_[a]).transpose();
+    });
+    set(correction_, a, formulation_.kernel_correction ? correction_matrix(sum) : Mat2(Mat2::Identity()));
   }
   for (std::size_t i = 0; i < images_.size(); ++i) {
-    const Mat2 r = model_.walls[images_[i].wall].reflection();
-    correction_[n + i] = r * correction_[images_[i].parent] * r;
+    const Mat2& r = reflection_[images_[i].wall].stress;
+    set(correction_, n + i, r * correction(images_[i].parent) * r);
   }
 }
 
@@ -130,14 +135,13 @@ void ConsistentDynamics::make_one_sided_gradients() {
     }
     OneSided stencil{.particle = a, .neighbours = {}, .gradient = {}};
     Mat2 sum = Mat2::Zero();
-    for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-      const std::int32_t b = neighbours_.index[k];
-      if (b >= static_cast<std::int32_t>(n) && stems_from_extrapolated[b - n]) continue;
-      const Vec2 g(gradient_[k].x, gradient_[k].y);
+    stencils_.for_neighbours(a, [&](std::int32_t b, const PairGeometry& pair) {
+      if (b >= static_cast<std::int32_t>(n) && stems_from_extrapolated[b - n]) return;
+      const Vec2 g(pair.x, pair.y);
       stencil.neighbours.push_back(b);
       stencil.gradient.push_back(g);
       sum += g * (points_[b] - points_[a]).transpose();
-    }
+    });
     const Mat2 correction = correction_matrix(sum);
     for (Vec2& g : stencil.gradient) g = correction * g;
     place[a] = one_sided_of_[i] = static_cast<std::int32_t>(one_sided_.size());
@@ -145,16 +149,78 @@ void ConsistentDynamics::make_one_sided_gradients() {
   }
 }
 
-void ConsistentDynamics::start_from_reference() {
+/// Marks the particles whose values are asked for one by one, beside the arrays.
+void ConsistentDynamics::choose_records() {
   const std::size_t n = model_.particles.size();
-  deformation_.assign(n, Mat2::Identity());
-  piola_.resize(points_.size());
-  records_.assign(points_.size(), Record{});
-  velocities_.resize(points_.size());
-  fill_image_velocities();
+  listed_.assign(points_.size(), 0);
+  for (const std::int32_t b : stencils_.index) listed_[b] = 1;
+  mirrored_.assign(n, 0);
+  const auto mirror = [&](std::int32_t b) {
+    if (b < static_cast<std::int32_t>(n)) mirrored_[b] = 1;
+  };
+  for (const Image& image : images_) mirror(image.parent);
+  for (const OneSided& stencil : one_sided_) {
+    mirror(stencil.particle);
+    for (const std::int32_t b : stencil.neighbours) mirror(b);
+  }
+}
+
+void ConsistentDynamics::start_from_reference() {
+  update_velocities();
   strain_all(0);
   largest_strain_ = 0;
   travel_ = 0;
+}
+
+/// For the state since the reference: undeformed so far.
+void ConsistentDynamics::make_room() {
+  const Particles& p = model_.particles;
+  for (int k = 0; k < 4; ++k) deformation_[k].assign(p.size(), k == 0 || k == 3 ? 1.0 : 0.0);
+  resize(flux_, points_.size());
+  for (auto& v : velocity_) v.resize(points_.size());
+  wet_ = model_.water.present() ||
+         std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(), [](double w) { return w != 0; });
+  if (wet_) pressure_.resize(points_.size());
+  if (zero_energy_rate_ != 0)
+    for (auto& m : motion_) m.resize(points_.size());
+  records_.assign(points_.size(), Record{});
+  piola_.assign(points_.size(), PlaneTensor{});
+  image_positions_.resize(images_.size());
+}
+
+void ConsistentDynamics::connect_arrays() {
+  Particles& p = model_.particles;
+  const auto const_data = [](const PlaneTensors& t, const double** out) {
+    for (int k = 0; k < 4; ++k) out[k] = t[k].data();
+  };
+  const auto data = [](PlaneTensors& t, double** out) {
+    for (int k = 0; k < 4; ++k) out[k] = t[k].data();
+  };
+  ConsistentArrays& c = arrays_;
+  c.stencils = &stencils_;
+  const_data(correction_, c.correction);
+  c.reference_density = reference_density_.data();
+  c.shear_modulus = shear_modulus_.data(), c.bulk_modulus = bulk_modulus_.data();
+  c.no_tension = no_tension_.data();
+  c.one_soil = model_.soils.size() == 1;
+  c.wet = wet_;
+  c.zero_energy_viscosity = zero_energy_viscosity_;
+  c.zero_energy_rate = zero_energy_rate_;
+  c.fill = p.fill.data();
+  const auto& motion = zero_energy_rate_ != 0 ? motion_ : velocity_;
+  c.motion[0] = motion[0].data(), c.motion[1] = motion[1].data();
+  c.bulk_length = formulation_.bulk_viscosity * model_.smoothing_length;
+  c.gravity[0] = model_.gravity.x(), c.gravity[1] = model_.gravity.y();
+  data(deformation_, c.deformation);
+  c.stress = &p.stress.data()->xx;
+  c.density = p.density.data();
+  data(flux_, c.flux);
+  c.pressure = pressure_.data();
+  c.velocity[0] = velocity_[0].data(), c.velocity[1] = velocity_[1].data();
+  c.listed = listed_.data();
+  c.records = records_.data();
+  c.mirrored = mirrored_.data();
+  c.piola = piola_.data()->data();
 }
 
 /// True when two particles came closer than the kernel's support, by a margin, without being neighbours.
@@ -166,97 +232,89 @@ bool ConsistentDynamics::strangers_are_near() {
   ++counts.searches;
   bool found = false;
 #pragma omp parallel for schedule(static) reduction(|| : found)
-  for (std::size_t a = 0; a < n; ++a) {
-    const auto known = neighbours_.of(a);
-    for (std::int32_t b : now.of(a)) found = found || !std::binary_search(known.begin(), known.end(), b);
-  }
+  for (std::size_t a = 0; a < n; ++a)
+    for (const std::int32_t b : now.of(a))
+      found = found || !stencils_.are_neighbours(static_cast<std::int32_t>(a), b);
   return found;
 }
 
-/// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
-Mat2 ConsistentDynamics::deformation_rate(std::size_t a) const {
-  return velocity_sum(neighbours_, gradient_.data(), velocities_.data(), gradient_sum_[a], a) *
-         correction_[a].transpose();
-}
-
-/// Stress, deformation and records of particles first to last - 1 after a step dt with the present
-/// velocities. Returns the largest |F - I| and the largest speed squared among them.
-ConsistentDynamics::Largest ConsistentDynamics::strain_block(std::size_t first, std::size_t last, double dt) {
-  Particles& p = model_.particles;
-  MaterialBlock block;
-  for (std::size_t i = 0; i < last - first; ++i) {
-    const std::size_t a = first + i;
-    const Mat2 rate = deformation_rate(a);
-    const LinearElastic& soil = model_.soils[p.soil[a]];
-    const Stress& s = p.stress[a];
-    const Mat2& f = deformation_[a];
-    block.rate[0][i] = rate(0, 0), block.rate[1][i] = rate(0, 1);
-    block.rate[2][i] = rate(1, 0), block.rate[3][i] = rate(1, 1);
-    block.deformation[0][i] = f(0, 0), block.deformation[1][i] = f(0, 1);
-    block.deformation[2][i] = f(1, 0), block.deformation[3][i] = f(1, 1);
-    block.stress[0][i] = s.xx, block.stress[1][i] = s.yy, block.stress[2][i] = s.zz,
-    block.stress[3][i] = s.xy;
-    block.shear_modulus[i] = soil.shear_modulus, block.bulk_modulus[i] = soil.bulk_modulus;
-    block.no_tension[i] = soil.no_tension ? 1.0 : 0.0;
-    block.reference_density[i] = reference_density_[a];
-  }
-  block.advance(dt, formulation_.bulk_viscosity * model_.smoothing_length);
-  Largest largest;
-  for (std::size_t i = 0; i < last - first; ++i) {
-    const std::size_t a = first + i;
-    const double mu = zero_energy_viscosity_;
-    Mat2& f = deformation_[a];
-    f << block.deformation[0][i], block.deformation[1][i], block.deformation[2][i], block.deformation[3][i];
-    p.stress[a] = {block.stress[0][i], block.stress[1][i], block.stress[2][i], block.stress[3][i]};
-    p.density[a] = block.density[i];
-    Mat2& piola = piola_[a];
-    piola << block.piola[0][i], block.piola[1][i], block.piola[2][i], block.piola[3][i];
-    const Mat2& l = correction_[a];
-    Lanes& q = records_[a].q;
-    q[t_xx] = piola(0, 0) * l(0, 0) + piola(0, 1) * l(1, 0) - mu * block.rate[0][i];
-    q[t_xy] = piola(0, 0) * l(0, 1) + piola(0, 1) * l(1, 1) - mu * block.rate[1][i];
-    q[t_yx] = piola(1, 0) * l(0, 0) + piola(1, 1) * l(1, 0) - mu * block.rate[2][i];
-    q[t_yy] = piola(1, 0) * l(0, 1) + piola(1, 1) * l(1, 1) - mu * block.rate[3][i];
-    q[v_x] = velocities_[a].x(), q[v_y] = velocities_[a].y();
-    largest.strain = std::max(
-        {largest.strain, std::abs(f(0, 0) - 1), std::abs(f(0, 1)), std::abs(f(1, 0)), std::abs(f(1, 1) - 1)});
-    largest.speed_squared = std::max(largest.speed_squared, velocities_[a].squaredNorm());
-  }
-  return largest;
-}
-
-/// Carries all particles over a step dt with the velocities of velocities_; dt = 0 only writes the records.
-ConsistentDynamics::Largest ConsistentDynamics::strain_all(double dt) {
-  const auto blocks =
-      static_cast<std::int64_t>((model_.particles.size() + MaterialBlock::size - 1) / MaterialBlock::size);
+/// Carries all particles over a step dt with the velocities of velocity_; dt = 0 only writes the fluxes.
+LargestChange ConsistentDynamics::strain_all(double dt) {
   double strain = 0, speed_squared = 0;
 #pragma omp parallel for schedule(static) reduction(max : strain, speed_squared)
-  for (std::int64_t block = 0; block < blocks; ++block) {
-    const std::size_t first = static_cast<std::size_t>(block) * MaterialBlock::size;
-    const Largest l = strain_block(first, std::min(first + MaterialBlock::size, model_.particles.size()), dt);
-    strain = std::max(strain, l.strain);
-    speed_squared = std::max(speed_squared, l.speed_squared);
+  for (std::int32_t tile = 0; tile < stencils_.tiles(); ++tile) {
+    LargestChange largest;
+    kernels_.strain(arrays_, tile, dt, largest);
+    strain = std::max(strain, largest.strain);
+    speed_squared = std::max(speed_squared, largest.speed_squared);
   }
   return {strain, speed_squared};
 }
 
-void ConsistentDynamics::fill_image_velocities() {
-  const auto& v = model_.particles.velocity;
-  std::copy(v.begin(), v.end(), velocities_.begin());
-  for (std::size_t i = 0; i < images_.size(); ++i)
-    velocities_[v.size() + i] =
-        image_of_velocity(model_.walls[images_[i].wall], velocities_[images_[i].parent]);
+/// Velocities of particles and images, beside each other and in the records.
+void ConsistentDynamics::update_velocities() {
+  const std::vector<Vec2>& v = model_.particles.velocity;
+  const std::size_t n = v.size();
+  double *vx = velocity_[0].data(), *vy = velocity_[1].data();
+  const auto record = [&](std::size_t i) {
+    if (listed_[i]) records_[i].q[velocity_lane] = vx[i], records_[i].q[velocity_lane + 1] = vy[i];
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    vx[a] = v[a].x(), vy[a] = v[a].y();
+    record(a);
+  }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const std::int32_t parent = images_[i].parent;
+    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(vx[parent], vy[parent]);
+    vx[n + i] = mirrored.x(), vy[n + i] = mirrored.y();
+    record(n + i);
+  }
 }
 
-void ConsistentDynamics::update_pressure_lanes() {
+/// v + rate * displacement, which the zero-energy control acts on. Takes the velocities' place in the records
+/// until the next step, when all have been strained.
+void ConsistentDynamics::update_motion() {
+  if (zero_energy_rate_ == 0) return;
   const Particles& p = model_.particles;
-  for (std::size_t a = 0; a < p.size(); ++a) records_[a].q[pressure] = p.pore_pressure[a];
-  image_positions_.resize(images_.size());
+  const std::size_t n = p.size();
+  double *mx = motion_[0].data(), *my = motion_[1].data();
+  const auto record = [&](std::size_t i) {
+    if (listed_[i]) records_[i].q[velocity_lane] = mx[i], records_[i].q[velocity_lane + 1] = my[i];
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    const Vec2 since = p.position[a] - points_[a];
+    mx[a] = velocity_[0][a] + zero_energy_rate_ * since.x();
+    my[a] = velocity_[1][a] + zero_energy_rate_ * since.y();
+    record(a);
+  }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const std::int32_t parent = images_[i].parent;
+    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(mx[parent], my[parent]);
+    mx[n + i] = mirrored.x(), my[n + i] = mirrored.y();
+    record(n + i);
+  }
+}
+
+void ConsistentDynamics::update_pressures() {
+  if (!wet_) return;
+  const Particles& p = model_.particles;
+  const std::size_t n = p.size();
+  const auto record = [&](std::size_t i) {
+    if (listed_[i]) records_[i].q[pressure_lane] = pressure_[i];
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    pressure_[a] = p.pore_pressure[a];
+    record(a);
+  }
   for (std::size_t i = 0; i < images_.size(); ++i) {
     const std::size_t parent = images_[i].parent;
-    const Vec2& from = parent < p.size() ? p.position[parent] : image_positions_[parent - p.size()];
+    const Vec2& from = parent < n ? p.position[parent] : image_positions_[parent - n];
     const Vec2 here = image_positions_[i] = model_.walls[images_[i].wall].mirrored(from);
-    records_[p.size() + i].q[pressure] = model_.water.pore_pressure_behind_wall(p.position[root_[i]], here);
+    pressure_[n + i] = model_.water.pore_pressure_behind_wall(p.position[root_[i]], here);
+    record(n + i);
   }
 }
 
@@ -266,9 +324,10 @@ void ConsistentDynamics::extrapolate_stress() {
   std::vector<std::array<Mat2, 2>> gradients(one_sided_.size());
   for (std::size_t s = 0; s < one_sided_.size(); ++s) {
     const OneSided& stencil = one_sided_[s];
+    const Mat2 own = matrix(piola_[stencil.particle]);
     Mat2 along_x = Mat2::Zero(), along_y = Mat2::Zero();
     for (std::size_t k = 0; k < stencil.neighbours.size(); ++k) {
-      const Mat2 difference = piola_[stencil.neighbours[k]] - piola_[stencil.particle];
+      const Mat2 difference = matrix(piola_[stencil.neighbours[k]]) - own;
       along_x += difference * stencil.gradient[k].x();
       along_y += difference * stencil.gradient[k].y();
     }
@@ -277,24 +336,25 @@ void ConsistentDynamics::extrapolate_stress() {
   for (std::size_t i = 0; i < extrapolated_; ++i) {
     const auto& [along_x, along_y] = gradients[one_sided_of_[i]];
     const Wall& wall = model_.walls[images_[i].wall];
-    const Mat2& root = piola_[root_[i]];
+    const Mat2 root = matrix(piola_[root_[i]]);
     const Vec2 way = points_[n + i] - points_[root_[i]];
     Mat2 stress = root + along_x * way.x() + along_y * way.y();
     if (wall.kind == BoundaryKind::roller) {
       const Mat2 across = wall.normal * wall.normal.transpose(), along = Mat2::Identity() - across;
-      const Mat2 mirrored = wall.reflection() * root * wall.reflection();
+      const Mat2& reflection = reflection_[images_[i].wall].stress;
+      const Mat2 mirrored = reflection * root * reflection;
       stress = across * stress * across + along * stress * along + across * mirrored * along +
                along * mirrored * across;
     }
-    piola_[n + i] = stress;
+    piola_[n + i] = plane_tensor(stress);
   }
 }
 
-void ConsistentDynamics::fill_image_records() {
+void ConsistentDynamics::update_image_fluxes() {
   const std::size_t n = model_.particles.size();
   const auto mirror_stress = [&](std::size_t i) {
-    const Mat2 r = model_.walls[images_[i].wall].reflection();
-    piola_[n + i] = r * piola_[images_[i].parent] * r;
+    const Mat2& r = reflection_[images_[i].wall].stress;
+    piola_[n + i] = plane_tensor(r * matrix(piola_[images_[i].parent]) * r);
   };
   for (std::size_t i = extrapolated_; i < images_.size(); ++i) mirror_stress(i);
   extrapolate_stress();
@@ -303,73 +363,81 @@ void ConsistentDynamics::fill_image_records() {
 
   for (std::size_t i = 0; i < images_.size(); ++i) {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
-    const Mat2 viscous = stress_lanes(records_[parent]) - piola_[parent] * correction_[parent];
-    Record& record = records_[n + i];
-    set_stress_lanes(
-        record, piola_[n + i] * correction_[n + i] + image_of_rate(model_.walls[images_[i].wall], viscous));
-    record.q[v_x] = velocities_[n + i].x();
-    record.q[v_y] = velocities_[n + i].y();
-  }
-}
-
-void ConsistentDynamics::accelerate_range(std::size_t first, std::size_t last, Vec2* out) const {
-  const Record* records = records_.data();
-  const std::int64_t* begin = neighbours_.begin.data();
-  const std::int32_t* index = neighbours_.index.data();
-  const PairGradient* gradient = gradient_.data();
-  const double* weight = weight_.data();
-  const double mu = zero_energy_viscosity_;
-  for (std::size_t a = first; a < last; ++a) {
-    Lanes x{}, y{}, w{}, x2{}, y2{}, w2{};  // two sums of each: an addition need not wait for the one before
-    std::int64_t k = begin[a];
-    for (; k + 1 < begin[a + 1]; k += 2) {
-      const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
-      x += q * gradient[k].x, x2 += q2 * gradient[k + 1].x;
-      y += q * gradient[k].y, y2 += q2 * gradient[k + 1].y;
-      w += q * weight[k], w2 += q2 * weight[k + 1];
-    }
-    if (k < begin[a + 1]) {
-      const Lanes q = records[index[k]].q;
-      x += q * gradient[k].x, y += q * gradient[k].y, w += q * weight[k];
-    }
-    x += x2, y += y2, w += w2;
-    const Lanes own = records[a].q;
-    const Vec2& s = gradient_sum_[a];
-    const Vec2 stress_force(x[t_xx] + y[t_xy] + own[t_xx] * s.x() + own[t_xy] * s.y(),
-                            x[t_yx] + y[t_yy] + own[t_yx] * s.x() + own[t_yy] * s.y());
-    const Vec2 viscous_force =
-        2 * mu * Vec2(w[v_x] - own[v_x] * weight_sum_[a], w[v_y] - own[v_y] * weight_sum_[a]);
-    const Vec2 pressure_sum(x[pressure] - own[pressure] * s.x(),
-                            y[pressure] - own[pressure] * s.y());  // eq. (22)
-    const Mat2& f = deformation_[a];
-    const Vec2 corrected = correction_[a] * pressure_sum;
-    const Vec2 pressure_force(
-        f(1, 1) * corrected.x() - f(1, 0) * corrected.y(),  // J F^-T, the cofactors of F
-        f(0, 0) * corrected.y() - f(0, 1) * corrected.x());
-    out[a] = (stress_force + viscous_force + pressure_force) / reference_density_[a] + model_.gravity;
+    const Reflection& wall = reflection_[images_[i].wall];
+    const double fill = model_.particles.fill[root_[i]];
+    const Mat2 control = get(flux_, parent) - fill * matrix(piola_[parent]) * correction(parent);
+    const Mat2 flux =
+        fill * matrix(piola_[n + i]) * correction(n + i) + wall.velocity * control * wall.stress;
+    set(flux_, n + i, flux);
+    if (!listed_[n + i]) continue;
+    Lanes& q = records_[n + i].q;
+    for (int k = 0; k < 4; ++k) q[k] = flux_[k][n + i];
   }
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  update_pressure_lanes();
-  fill_image_records();
-#pragma omp parallel
-  {
-    const auto [first, last] = thread_range(model_.particles.size());
-    accelerate_range(first, last, out.data());
-  }
+  update_pressures();
+  update_motion();
+  update_image_fluxes();
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < stencils_.tiles(); ++tile)
+    kernels_.accelerate(arrays_, tile, out.data()->data());
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
-  fill_image_velocities();
+  update_velocities();
 #pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < stencils_.tiles(); ++tile) {
+    std::array<PlaneTensor, PairStencils::tile> rate;
+    kernels_.rates(arrays_, tile, rate.data()->data());
+    const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
+      out[a] = matrix(rate[a - first]) * inverse(get(deformation_, a));
+  }
+}
+
+void ConsistentDynamics::visit(StateArchive& state) {
+  state.value("has_reference", have_reference_);
+  if (!have_reference_) return;
+  const std::size_t n = model_.particles.size();
+  std::vector<Vec2> positions(n);
+  std::vector<double> densities(n);
+  if (!state.restoring()) {
+    std::copy_n(points_.begin(), n, positions.begin());
+    densities = reference_density_;
+  }
+  state.array("reference_position", positions);
+  state.array("reference_density", densities);
+  if (state.restoring()) restore_reference(positions, densities);
+  for (auto& component : deformation_) state.array("deformation", component);
+  for (auto& component : flux_) state.array("flux", std::span(component).first(n));
+  state.array("piola",
+              std::span(piola_).first(n));  // of the images, as their flux: made when they are needed
+  state.value("largest_strain", largest_strain_);
+  state.value("travel", travel_);
+  if (state.restoring()) update_flux_records();
+}
+
+/// The reference as it was made when the particles had these positions and densities.
+void ConsistentDynamics::restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities) {
+  Particles& p = model_.particles;
+  p.position.swap(positions), p.density.swap(densities);
+  make_reference();
+  p.position.swap(positions), p.density.swap(densities);
+  connect_arrays();
+  update_velocities();
+}
+
+/// As the kernels leave them after each step.
+void ConsistentDynamics::update_flux_records() {
   for (std::size_t a = 0; a < model_.particles.size(); ++a)
-    out[a] = deformation_rate(a) * inverse(deformation_[a]);
+    if (listed_[a])
+      for (int k = 0; k < 4; ++k) records_[a].q[k] = flux_[k][a];
 }
 
 void ConsistentDynamics::strain(double dt) {
-  fill_image_velocities();
-  const Largest largest = strain_all(dt);
+  update_velocities();
+  const LargestChange largest = strain_all(dt);
   largest_strain_ = largest.strain;
   travel_ += dt * std::sqrt(largest.speed_squared);
 }

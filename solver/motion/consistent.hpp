@@ -1,14 +1,19 @@
 // The consistent form: the exact adjoint of the strain rate, on a reference configuration.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/kernel/cubic_spline.hpp"
 #include "solver/motion/dynamics.hpp"
-#include "solver/motion/pair_sums.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/motion/kernels/consistent_kernels.hpp"
+#include "solver/motion/pair_stencils.hpp"
 
 namespace porosph {
+
+/// Plane tensors, not symmetric: arrays of xx, xy, yx and yy.
+using PlaneTensors = std::array<std::vector<double>, 4>;
+using PlaneTensor = std::array<double, 4>;
 
 /// Each stress acts with its own correction matrix (Bonet and Lok 1999), so that the forces are the adjoint
 /// of the strain-rate operator and conserve momentum and energy:
@@ -22,49 +27,64 @@ namespace porosph {
 /// were no neighbours.
 class ConsistentDynamics final : public Dynamics {
  public:
-  ConsistentDynamics(const FormulationCase& formulation, Model& model);
+  ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units = vector_units());
 
   void prepare() override;
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  void visit(StateArchive& state) override;
 
  private:
   void refresh();
+  void make_reference();
+  void restore_reference(std::vector<Vec2>& positions, std::vector<double>& densities);
   void make_images();
   void make_gradients();
+  void make_corrections();
   void make_one_sided_gradients();
+  void choose_records();
   void start_from_reference();
+  void make_room();
+  void connect_arrays();
   bool strangers_are_near();
 
-  Mat2 deformation_rate(std::size_t a) const;
-  struct Largest {
-    double strain = 0, speed_squared = 0;
-  };
-  Largest strain_all(double dt);
-  Largest strain_block(std::size_t first, std::size_t last, double dt);
-  void update_pressure_lanes();
-  void fill_image_records();
-  void fill_image_velocities();
+  LargestChange strain_all(double dt);
+  void update_velocities();
+  void update_motion();
+  void update_pressures();
+  void update_image_fluxes();
+  void update_flux_records();
   void extrapolate_stress();
-  void accelerate_range(std::size_t first, std::size_t last, Vec2* out) const;
+
+  Mat2 correction(std::size_t i) const { return get(correction_, i); }
+  static Mat2 get(const PlaneTensors& t, std::size_t i) {
+    return (Mat2() << t[0][i], t[1][i], t[2][i], t[3][i]).finished();
+  }
+  static void set(PlaneTensors& t, std::size_t i, const Mat2& m) {
+    t[0][i] = m(0, 0), t[1][i] = m(0, 1), t[2][i] = m(1, 0), t[3][i] = m(1, 1);
+  }
 
   Model& model_;
   FormulationCase formulation_;
   CubicSpline<2> kernel_;
+  const ConsistentKernels& kernels_;
   double zero_energy_viscosity_;  ///< mu = kappa rho c_p h [Pa s]
+  double zero_energy_rate_;       ///< the control acts on v + rate * displacement since the reference [1/s]
+  std::vector<double> shear_modulus_, bulk_modulus_, no_tension_;  ///< per particle; one entry in one soil
+  struct Reflection {
+    Mat2 stress;    ///< R
+    Mat2 velocity;  ///< of what moves: R at a roller, -I at a fixed wall
+  };
+  std::vector<Reflection> reflection_;  ///< of each wall
 
   // The reference configuration. Images of walls that extrapolate the stress come first, then those that
   // mirror it.
   std::vector<Vec2> points_;  ///< particles, then images [m]
   std::vector<Image> images_;
   std::size_t extrapolated_ = 0;  ///< how many images have their stress extrapolated
-  NeighbourList neighbours_;
-  std::vector<PairGradient> gradient_;
-  std::vector<double> weight_;      ///< gradient = weight * (x_b - x_a) [1/m2]
-  std::vector<Mat2> correction_;    ///< L, of particles and images
-  std::vector<Vec2> gradient_sum_;  ///< sum_b of the pair gradients [1/m]
-  std::vector<double> weight_sum_;  ///< [1/m2]
+  PairStencils stencils_;
+  PlaneTensors correction_;  ///< L, of particles and images
   std::vector<double> volume_, reference_density_;
   std::vector<std::int32_t> root_;  ///< of each image: the particle it stems from
   struct OneSided {
@@ -74,15 +94,23 @@ class ConsistentDynamics final : public Dynamics {
   };
   std::vector<OneSided> one_sided_;
   std::vector<std::int32_t> one_sided_of_;  ///< of each extrapolated image
+  std::vector<std::uint8_t> listed_;        ///< of particles and images: an own list names it
+  std::vector<std::uint8_t> mirrored_;      ///< of particles: images ask for its stress
 
   // The state since then.
-  std::vector<Mat2> deformation_;      ///< F
-  std::vector<Mat2> piola_;            ///< first Piola-Kirchhoff stress P, of particles and images [Pa]
-  std::vector<Record> records_;        ///< P L - mu dF/dt (columns), p_w, v: of particles and images
-  std::vector<Vec2> velocities_;       ///< of particles and images
-  std::vector<Vec2> image_positions_;  ///< where the images are now [m]
-  double largest_strain_ = 0;          ///< |F - I| since the refresh
-  double travel_ = 0;                  ///< bound on any particle's path since neighbours were looked at [m]
+  PlaneTensors deformation_;  ///< F
+  /// fill P L - mu (dF/dt + rate (F - I)), of particles and images [Pa]
+  PlaneTensors flux_;
+  std::vector<double> pressure_;                 ///< p_w, of particles and images [Pa]
+  std::array<std::vector<double>, 2> velocity_;  ///< of particles and images [m/s]
+  std::array<std::vector<double>, 2> motion_;    ///< v + rate * displacement, likewise, where rate is not 0
+  std::vector<Record> records_;                  ///< flux, p_w and velocity of those that are listed
+  std::vector<PlaneTensor> piola_;               ///< P of mirrored particles and of images [Pa]
+  std::vector<Vec2> image_positions_;            ///< where the images are now [m]
+  bool wet_ = false;                             ///< dry soil has no pore pressure to look after
+  ConsistentArrays arrays_{};                    ///< all these, as the kernels see them
+  double largest_strain_ = 0;                    ///< |F - I| since the refresh
+  double travel_ = 0;  ///< bound on any particle's path since neighbours were looked at [m]
   bool have_reference_ = false;
 };
 

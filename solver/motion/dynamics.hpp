@@ -7,6 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
+#include "solver/state.hpp"
 
 namespace porosph {
 
@@ -29,6 +30,10 @@ class Dynamics {
   /// Carries effective stress and density over a step dt [s], in which the particles moved with their present
   /// velocities from where the last prepare() saw them.
   virtual void strain(double dt) = 0;
+
+  /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
+  /// saving. Lists and gradients are made anew by the code that made them first. Throws StateError.
+  virtual void visit(StateArchive& state) = 0;
 
   /// How often neighbours were searched, and kernel gradients made.
   struct Counts {

@@ -337,4 +337,18 @@ void PaperDynamics::strain(double dt) {
   }
 }
 
+/// Neighbours and ghosts are those of the last search; the rest is made anew in every step.
+void PaperDynamics::visit(StateArchive& state) {
+  bool has_searched = !searched_.empty();
+  state.value("has_searched", has_searched);
+  if (!has_searched) return;
+  std::vector<Vec2> then = searched_;
+  then.resize(model_.particles.size());
+  state.array("searched", then);
+  if (!state.restoring()) return;
+  model_.particles.position.swap(then);
+  search();
+  model_.particles.position.swap(then);
+}
+
 }  // namespace porosph

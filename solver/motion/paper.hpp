@@ -23,6 +23,7 @@ class PaperDynamics final : public Dynamics {
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  void visit(StateArchive& state) override;
 
  private:
   void make_virtual_particles();

@@ -5,21 +5,30 @@
 
 namespace porosph {
 
-/// v^{n+1/2} from v^{n-1/2}, the acceleration a^n and the damping c_d [1/s], which acts on their mean (second
-/// order).
-inline Vec2 kick(const Vec2& velocity, const Vec2& acceleration, double damping, double dt) {
+/// A new velocity, keep * v + gain * a, from the old one and the acceleration.
+struct Kick {
+  double keep;  ///< [-]
+  double gain;  ///< [s]
+
+  Vec2 operator()(const Vec2& velocity, const Vec2& acceleration) const {
+    return keep * velocity + gain * acceleration;
+  }
+};
+
+/// To v^{n+1/2} from v^{n-1/2}, with the acceleration a^n and the damping c_d [1/s], which acts on their mean
+/// (second order).
+inline Kick full_kick(double damping, double dt) {
   const double half = 0.5 * damping * dt;
-  return ((1 - half) * velocity + dt * acceleration) / (1 + half);
+  return {(1 - half) / (1 + half), dt / (1 + half)};
 }
 
-/// v^n, from v^{n-1/2}: half a kick, damping included.
-inline Vec2 half_kick(const Vec2& velocity, const Vec2& acceleration, double damping, double dt) {
-  return (velocity + 0.5 * dt * acceleration) / (1 + 0.5 * damping * dt);
+/// To v^n from v^{n-1/2}.
+inline Kick half_kick(double damping, double dt) {
+  const double half = 0.5 * damping * dt;
+  return {1 / (1 + half), 0.5 * dt / (1 + half)};
 }
 
-/// v^{1/2} from v^0.
-inline Vec2 first_kick(const Vec2& velocity, const Vec2& acceleration, double damping, double dt) {
-  return velocity + 0.5 * dt * (acceleration - damping * velocity);
-}
+/// To v^{1/2} from v^0.
+inline Kick first_kick(double damping, double dt) { return {1 - 0.5 * damping * dt, 0.5 * dt}; }
 
 }  // namespace porosph

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/simulation/coarse_start.hpp"
+
 namespace porosph {
 namespace {
 
@@ -12,24 +14,26 @@ constexpr std::int64_t steps_between_balances = 10, steps_between_energy_checks 
                        steps_between_searches = 200;
 
 /// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
-/// crosses the body to and fro.
+/// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
 class Equilibrium {
  public:
   explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
-    Vec2 low = s.model().particles.position.front(), high = low;
-    for (const Vec2& p : s.model().particles.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    Vec2 low = s.model().particles.start.front(), high = low;
+    for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
-    if (!s.scene().water.level_over_time.empty()) since_ = s.scene().water.level_over_time.back().x();
+    if (!s.scene().water.level_over_time.empty()) water_rests_ = s.scene().water.level_over_time.back().x();
   }
 
-  bool reached(Simulation& s) {
+  /// Keeps the last time out of balance in `unbalanced_at` [s].
+  bool reached(Simulation& s, double& unbalanced_at) const {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
-    if (s.unbalanced_force_ratio() >= limit_) since_ = std::max(since_, s.time());
-    return s.time() - since_ >= needed_;
+    if (s.unbalanced_force_ratio() >= limit_) unbalanced_at = s.time();
+    const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
+    return s.time() - std::max(unbalanced_at, water_rests_) >= (c > 0 ? std::min(needed_, 4 / c) : needed_);
   }
 
  private:
-  double limit_, needed_ = 0, since_ = 0;
+  double limit_, needed_ = 0, water_rests_ = 0;
 };
 
 std::vector<double> history_row(const Simulation& s) {
@@ -95,29 +99,49 @@ std::vector<std::string> history_columns(const Simulation& simulation) {
   return columns;
 }
 
-RunOutcome run(Simulation& s, const RunWatch& watch) {
+void RunProgress::visit(StateArchive& state) {
+  state.value("framed", framed);
+  state.value("recorded", recorded);
+  state.value("energy_at_start", energy_at_start);
+  state.value("unbalanced_at", unbalanced_at);
+  state.value("stepping_seconds", stepping_seconds);
+}
+
+RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   using Clock = std::chrono::steady_clock;
   const OutputCase& output = s.scene().output;
   const Schedule frames(output.interval, s.time_step(), s.last_step());
   const double history_interval = output.history_interval > 0 ? output.history_interval : s.time_step();
   const Schedule rows(history_interval, s.time_step(), s.last_step());
-  Equilibrium equilibrium(s);
+  const Equilibrium equilibrium(s);
   RunOutcome outcome;
-  std::int64_t framed = -1, recorded = -1;
   const auto record = [&](bool frame_due, bool row_due) {
-    if (frame_due && watch.frame && framed != s.step()) watch.frame(s), framed = s.step();
-    if (row_due && watch.history && recorded != s.step()) watch.history(history_row(s)), recorded = s.step();
+    if (frame_due && progress.framed != s.step()) {
+      progress.framed = s.step();
+      if (watch.frame) watch.frame(s);
+    }
+    if (row_due && progress.recorded != s.step()) {
+      progress.recorded = s.step();
+      if (watch.history) watch.history(history_row(s));
+    }
   };
 
-  const double energy_at_start = s.energy().total();
-  Guard guard(s, energy_at_start);
-  record(true, true);
+  if (!progress.has_begun()) {
+    if (s.scene().loading.coarse_starts > 0) {
+      const auto before = Clock::now();
+      start_from_coarse(s);
+      progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    }
+    progress.energy_at_start = s.energy().total();
+    record(true, true);
+  }
+  Guard guard(s, progress.energy_at_start);
   while (s.step() < s.last_step()) {
     const auto before = Clock::now();
     s.advance();
     guard.look(s);
-    const bool settled = !s.instability() && equilibrium.reached(s);
-    outcome.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    const bool settled = !s.instability() && equilibrium.reached(s, progress.unbalanced_at);
+    progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
       outcome.status = RunStatus::unstable;
       outcome.message = s.instability()->message;
@@ -125,24 +149,27 @@ RunOutcome run(Simulation& s, const RunWatch& watch) {
     }
     record(frames.due(s.step()), rows.due(s.step()));
     if (watch.progress) watch.progress(s);
+    const bool interrupted = !settled && watch.interrupted && watch.interrupted();
+    if (watch.checkpoint && !settled) watch.checkpoint(s, progress, interrupted);
     if (settled) {
       outcome.status = RunStatus::equilibrium;
       outcome.message =
           fmt::format("unbalanced force ratio below {:g}", s.scene().stop.unbalanced_force_ratio);
-    } else if (watch.interrupted && watch.interrupted()) {
+    } else if (interrupted) {
       outcome.status = RunStatus::interrupted;
       outcome.message = "stopped by request";
     }
     if (outcome.status != RunStatus::completed) break;
   }
+  outcome.stepping_seconds = progress.stepping_seconds;
   const bool showable = outcome.status != RunStatus::unstable || s.showable();
   if (showable)
     record(true, true);
   else if (s.exchange_with_last_good()) {
-    record(framed < s.step(), false);
+    record(progress.framed < s.step(), false);
     s.exchange_with_last_good();
   }
-  outcome.energy_growth = showable ? energy_growth(s.energy(), energy_at_start) : std::nan("");
+  outcome.energy_growth = showable ? energy_growth(s.energy(), progress.energy_at_start) : std::nan("");
   return outcome;
 }
 

@@ -21,12 +21,26 @@ class Schedule {
   std::int64_t last_;
 };
 
+/// What a run keeps besides its simulation.
+struct RunProgress {
+  std::int64_t framed = -1, recorded = -1;  ///< steps of the last frame and history row that were due
+  double energy_at_start = 0;               ///< [J/m]
+  double unbalanced_at = 0;                 ///< last time at which forces were seen out of balance [s]
+  double stepping_seconds = 0;              ///< wall time without what the watch did [s]
+
+  bool has_begun() const { return framed >= 0 || recorded >= 0; }
+  void visit(StateArchive& state);  ///< saves or restores all of it
+};
+
 /// What the caller does while a run goes on. Empty functions are not called.
 struct RunWatch {
   std::function<void(Simulation&)> frame;                       ///< a frame is due (output.interval)
   std::function<void(const std::vector<double>& row)> history;  ///< a row of history_columns()
   std::function<void(const Simulation&)> progress;              ///< after every step
   std::function<bool()> interrupted;                            ///< true ends the run after this step
+  /// After every step from which a run can go on: the place to save simulation and progress. `ending`: the
+  /// run was interrupted. What it writes next does not belong to a run that is resumed from here.
+  std::function<void(Simulation&, RunProgress&, bool ending)> checkpoint = {};
 };
 
 struct RunOutcome {
@@ -36,9 +50,10 @@ struct RunOutcome {
   double stepping_seconds = 0;  ///< wall time without what the watch did [s]
 };
 
-/// Advances to the end. The last frame and history row are of the state at which the run ended; in place of a
-/// state that has broken down the last frame is of the last good one, 100 to 200 steps before.
-RunOutcome run(Simulation& simulation, const RunWatch& watch);
+/// Advances to the end, from the start or from where a restored `progress` left off. The last frame and
+/// history row are of the state at which the run ended; in place of a state that has broken down the last
+/// frame is of the last good one, 100 to 200 steps before.
+RunOutcome run(Simulation& simulation, const RunWatch& watch, RunProgress progress = {});
 
 /// "time", then "<probe>.<quantity>".
 std::vector<std::string> history_columns(const Simulation& simulation);

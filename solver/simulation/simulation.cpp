@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/monitor/energy.hpp"
+#include "solver/parallel.hpp"
 #include "solver/simulation/leapfrog.hpp"
 
 namespace porosph {
@@ -11,6 +12,29 @@ double time_step(const Case& scene, const Model& model) {
   const double largest = scene.time.courant * model.smoothing_length / model.wave_speed;
   return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
 }
+
+namespace {
+
+/// Kicks and moves particles first to last - 1; returns how many of them are faster than `limit`, the square
+/// of a speed, or not finite, or turned inside out. One loop over plain numbers, so that it becomes vector
+/// code.
+std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, double dt, double limit,
+                            Particles& p, const std::vector<Vec2>& accelerations) {
+  double *v = p.velocity.data()->data(), *x = p.position.data()->data();
+  const double *a = accelerations.data()->data(), *density = p.density.data();
+  std::int64_t runaways = 0;
+#pragma omp simd reduction(+ : runaways)
+  for (std::size_t i = first; i < last; ++i) {
+    const double vx = kick.keep * v[2 * i] + kick.gain * a[2 * i];
+    const double vy = kick.keep * v[2 * i + 1] + kick.gain * a[2 * i + 1];
+    v[2 * i] = vx, v[2 * i + 1] = vy;
+    x[2 * i] += dt * vx, x[2 * i + 1] += dt * vy;
+    runaways += vx * vx + vy * vy < limit && density[i] > 0 ? 0 : 1;
+  }
+  return runaways;
+}
+
+}  // namespace
 
 Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
@@ -26,7 +50,9 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
 }
 
 double Simulation::damping() const {
-  return time() < scene_.loading.damping_until ? scene_.loading.damping / dt_ : 0;
+  const LoadingCase& loading = scene_.loading;
+  if (time() >= loading.damping_until) return 0;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / dt_;
 }
 
 std::span<const Vec2> Simulation::accelerations() {
@@ -42,36 +68,82 @@ std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
   if (step_ == 0) return v;
   const auto a = accelerations();
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] = half_kick(v[i], a[i], damping(), dt_);
+  const Kick kick = half_kick(damping(), dt_);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
 }
 
 void Simulation::advance() {
   if (instability_) return;
   accelerations();
+  const bool measure = scene_.loading.adaptive_damping && step_ % Relaxation::steps_between == 0;
+  if (measure) before_ = accelerations_;
   drift();
   accelerations_valid_ = false;
   ++step_;
-  if (!instability_) dynamics_->strain(dt_);
+  if (instability_) return;
+  dynamics_->strain(dt_);
+  if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
+}
+
+void Simulation::displace(std::span<const Vec2> displacement, int steps) {
+  Particles& p = model_.particles;
+  for (int k = 0; k < steps; ++k) {
+    dynamics_->prepare();
+    for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = displacement[i] / (steps * dt_);
+    for (std::size_t i = 0; i < p.size(); ++i) p.position[i] += dt_ * p.velocity[i];
+    dynamics_->strain(dt_);
+  }
+  if (model_.water.present())
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
+  for (Vec2& v : p.velocity) v.setZero();
+  dynamics_->prepare();
+  dynamics_->strain(0);
+  accelerations_valid_ = false;
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
 void Simulation::drift() {
   Particles& p = model_.particles;
-  const double c = damping(), dt = dt_;
-  const bool first = step_ == 0, wet = model_.water.present();
-  model_.water.set_time(time() + dt);
-  bool runaway = false;
-#pragma omp parallel for schedule(static) reduction(|| : runaway)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.velocity[i] = (first ? first_kick : kick)(p.velocity[i], accelerations_[i], c, dt);
-    p.position[i] += dt * p.velocity[i];
-    if (wet) p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
-    runaway = runaway || !(p.velocity[i].squaredNorm() < model_.wave_speed * model_.wave_speed) ||
-              !(p.density[i] > 0);
+  const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
+  const bool wet = model_.water.present();
+  const double then = static_cast<double>(step_ + 1) * dt_;
+  model_.water.set_time(then);
+  const double limit = model_.wave_speed * model_.wave_speed;
+  std::int64_t runaways = 0;
+#pragma omp parallel reduction(+ : runaways)
+  {
+    const auto [first, last] = thread_range(p.size());
+    runaways = move_particles(first, last, kick, dt_, limit, p, accelerations_);
+    if (wet) model_.water.pore_pressures(p, first, last);
   }
-  runaway_ = runaway;
-  if (runaway) name_breakdown(time() + dt);
+  runaway_ = runaways > 0;
+  if (runaway_) name_breakdown(then);
+}
+
+void Simulation::visit(StateArchive& state) {
+  Particles& p = model_.particles;
+  bool prepared = accelerations_valid_;
+  Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
+  state.value("step", step_);
+  state.value("prepared", prepared);
+  state.value("searches", counts_then.searches);
+  state.value("refreshes", counts_then.refreshes);
+  state.array("position", p.position);
+  state.array("velocity", p.velocity);
+  state.array("stress", p.stress);
+  state.array("pore_pressure", p.pore_pressure);
+  state.array("density", p.density);
+  state.value("relaxation_stiffness", relaxation_.stiffness);
+  state.value("relaxation_inertia", relaxation_.inertia);
+  state.value("relaxation_damping", relaxation_.damping);
+  dynamics_->visit(state);
+  if (!state.restoring()) return;
+  model_.water.set_time(time());
+  accelerations_valid_ = false;
+  if (prepared) accelerations();
+  counts = counts_then;
 }
 
 /// What the conventional form throws off is fast in the end, but that it left is what went wrong first.

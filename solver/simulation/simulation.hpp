@@ -10,6 +10,7 @@
 #include "solver/monitor/instability.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/simulation/probe.hpp"
+#include "solver/simulation/relaxation.hpp"
 
 namespace porosph {
 
@@ -62,8 +63,16 @@ class Simulation {
   /// place; to be looked at only, not to go on from. Returns false where none is remembered.
   bool exchange_with_last_good();
 
+  /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
+  /// restored into goes on to the same bits. Throws StateError.
+  void visit(StateArchive& state);
+  double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
+
+  /// Moves the particles by these displacements [m], all at once but in so many steps of strain, and leaves
+  /// them at rest. Time does not go on.
+  void displace(std::span<const Vec2> displacement, int steps);
+
  private:
-  double damping() const;  ///< c_d of eq. (34) [1/s]
   void drift();
   void name_breakdown(double time);
 
@@ -74,6 +83,8 @@ class Simulation {
   double dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;
+  std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
+  Relaxation relaxation_;     ///< unused unless the case's damping is adaptive
   bool accelerations_valid_ = false;
   std::int64_t bodies_at_start_ = 0;
   std::optional<Breakdown> instability_;

@@ -37,10 +37,15 @@ class Workplace {
   const std::filesystem::path& folder() const { return folder_; }
 
   Outcome porosph(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" POROSPH_PROGRAM "' " + arguments + " >out 2>err";
+    const int status = shell("'" POROSPH_PROGRAM "' " + arguments);
+    return {status, text_of(folder_ / "out"), text_of(folder_ / "err")};
+  }
+
+  /// Exit status of a shell's commands, which write into the files `out` and `err`.
+  int shell(const std::string& commands) const {
+    const std::string command = "cd '" + folder_.string() + "' && { " + commands + "; } >out 2>err";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"), text_of(folder_ / "err")};
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
   void write(const std::string& file, const std::string& text) const {

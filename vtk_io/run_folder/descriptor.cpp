@@ -48,6 +48,7 @@ void Descriptor::sync() {
 long Descriptor::size() const {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail();
+  if (status.st_nlink == 0) throw WriteError(blamed_, "it was removed");
   return status.st_size;
 }
 

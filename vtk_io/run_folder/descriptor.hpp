@@ -16,7 +16,7 @@ class Descriptor {
 
   void write(std::string_view bytes);  ///< all of them
   void sync();                         ///< to the disk
-  long size() const;                   ///< [bytes]
+  long size() const;                   ///< [bytes]; fails for a file that was removed meanwhile
   void truncate(long size);            ///< [bytes]
 
  private:

@@ -17,6 +17,8 @@ struct WriteError : std::runtime_error {
 struct ReadError : std::runtime_error {
   ReadError(const std::filesystem::path& file, const std::string& reason)
       : std::runtime_error("cannot read " + file.string() + ": " + reason) {}
+  /// The same with more to say.
+  ReadError(const ReadError& error, const std::string& more) : std::runtime_error(error.what() + more) {}
 };
 
 }  // namespace porosph

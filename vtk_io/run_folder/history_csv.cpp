@@ -160,6 +160,9 @@ HistoryWriter HistoryWriter::resume(const std::filesystem::path& file,
     throw ReadError(file, "its columns are not those of the case: cannot be continued");
   }
   std::erase_if(history.rows, [&](const auto& row) { return row[0] > time; });
+  if (history.rows.empty() || history.rows.back()[0] != time) {
+    throw ReadError(file, fmt::format("it has no row at {} s: cannot be continued from there", time));
+  }
   write_history(file, history);
   return HistoryWriter(file, columns.size());
 }
@@ -178,7 +181,6 @@ void HistoryWriter::append(std::span<const double> row) {
 }
 
 void HistoryWriter::flush() {
-  if (pending_.empty()) return;
   const auto size = file_.size();
   try {
     file_.write(std::exchange(pending_, {}));
@@ -187,6 +189,11 @@ void HistoryWriter::flush() {
     throw;
   }
   last_flush_ = std::chrono::steady_clock::now();
+}
+
+void HistoryWriter::sync() {
+  flush();
+  file_.sync();
 }
 
 }  // namespace porosph

@@ -33,8 +33,8 @@ class HistoryWriter {
   /// Replaces `file` by one with no rows. Throws as write_history.
   HistoryWriter(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
-  /// Continues `file`: rows later than `time` [s] and a torn last line are dropped.
-  /// Throws ReadError, also if its columns are not these; WriteError.
+  /// Continues `file` after its row at `time` [s]: later rows and a torn last line are dropped.
+  /// Throws ReadError, also if there is no such row or its columns are not these; WriteError.
   static HistoryWriter resume(const std::filesystem::path& file, const std::vector<std::string>& columns,
                               double time);
 
@@ -46,6 +46,9 @@ class HistoryWriter {
   void append(std::span<const double> row);
   /// All rows so far to the file. If that fails the file ends with its last whole row. Throws WriteError.
   void flush();
+  /// As flush(), and waits until the disk has them. Throws WriteError, as flush() also if the file was
+  /// removed.
+  void sync();
 
  private:
   HistoryWriter(const std::filesystem::path& file, std::size_t columns);

@@ -117,6 +117,14 @@ TEST_CASE("on a full disk a flush fails, and the file still ends with a whole ro
   CHECK(content(file) == "time,A.EffectiveStress_YY,A.PorePressure\n0,1,2\n");
 }
 
+TEST_CASE("a history that vanished is missed at the next flush") {
+  const TemporaryFolder folder;
+  HistoryWriter writer(folder / "history.csv", columns);
+  std::filesystem::remove(folder / "history.csv");
+  writer.append(Row{0, 1, 2});
+  CHECK_THROWS_WITH(writer.flush(), Contains("history.csv: it was removed"));
+}
+
 TEST_CASE("a resumed history goes on after the given time") {
   const TemporaryFolder folder;
   const auto file = folder / "history.csv";
@@ -129,6 +137,7 @@ TEST_CASE("a resumed history goes on after the given time") {
   const auto read = read_history(file);
   CHECK_FALSE(read.torn_line);
   CHECK(read.history.rows == std::vector<Row>{{0, 1, 2}, {0.1, 1, 2}, {0.2, 1, 2}, {0.25, 3, 4}});
+  CHECK_THROWS_WITH(HistoryWriter::resume(file, columns, 0.22), Contains("no row at 0.22 s"));
   CHECK_THROWS_WITH(HistoryWriter::resume(file, {"time", "B.PorePressure"}, 0.2), Contains("columns"));
   CHECK_THROWS_AS(HistoryWriter::resume(folder / "none.csv", columns, 0), ReadError);
 }

@@ -164,6 +164,7 @@ TEST_CASE("a resumed series goes on after the given time") {
   CHECK(frames[2].time == 0.15);
   CHECK(frames[2].file == "frames/particles_000002.vtp");
   CHECK(seen_by_vtk<vtkXMLPolyDataReader>(folder / frames[2].file)->GetNumberOfPoints() == 9);
+  CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.12), Contains("no frame at 0.12 s"));
   CHECK_THROWS_AS(SeriesWriter::resume(folder / "none", 0), ReadError);
 }
 

@@ -49,6 +49,8 @@ inline std::string errors_of(const std::string& text, const std::vector<std::str
 }
 
 /// What parse_case says of the small case with text added after its last line, line 19 being empty.
-inline std::string errors_with(const std::string& added) { return errors_of(small_case + added); }
+inline std::string errors_with(const std::string& added, const std::vector<std::string>& overrides = {}) {
+  return errors_of(small_case + added, overrides);
+}
 
 }  // namespace porosph::test

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -121,6 +124,37 @@ TEST_CASE("text that is no TOML") {
   CHECK_THAT(errors_of(""), Contains("key 'soil': is missing"));
   CHECK(errors_of(std::string((16 << 20) + 1, ' ')) ==
         "box.toml: has 16777217 bytes; at most 16777216 are read");
+}
+
+TEST_CASE("keys nested so deeply that reading them would use up the stack") {
+  const auto nested = [](const std::string& name, std::size_t times) {
+    std::string key = name;
+    for (std::size_t i = 0; i < times; ++i) key += "." + name;
+    return key;
+  };
+  for (const char* name : {"a", "'a b'", "1", "1-1", "\"[\"", "a "}) {
+    const std::string error = "box.toml:20:1: more than 100 dots in a line: keys are not nested so deeply";
+    CHECK(errors_with(nested(name, 1000000) + " = 1\n") == error);
+    CHECK(errors_with("[" + nested(name, 200) + "]\n") == error);
+    CHECK(errors_with("x = {" + nested(name, 200) + " = 1}\n") == error);
+  }
+  CHECK_THAT(errors_with("a = 1", {nested("a", 100000) + "=1"}), Contains("nested deeper than any"));
+  CHECK(errors_with(
+            "# ............................................................................................."
+            "....................\n")
+            .empty());
+  std::string numbers = "[[0, 0], [4, 0], [4, 2]";
+  for (int i = 0; i < 500; ++i) numbers += fmt::format(", [{}, 1.5e0]", 4 - i / 200.0 - 0.01);
+  CHECK_THAT(errors_of(with("[[0, 0], [4, 0], [4, 2]", numbers)), !Contains("dots"));
+}
+
+TEST_CASE("a file with very many errors tells the first") {
+  std::string many;
+  for (int i = 0; i < 300; ++i) many += fmt::format("x{} = 1\n", i);
+  const std::string errors = errors_with(many);
+  CHECK(std::count(errors.begin(), errors.end(), '\n') == 100);
+  CHECK_THAT(errors, Contains("box.toml:20:1: key 'time.x0': is not known") &&
+                         Contains("\nbox.toml: and 200 more errors"));
 }
 
 TEST_CASE("files that cannot be read") {

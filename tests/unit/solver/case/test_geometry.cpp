@@ -68,7 +68,7 @@ TEST_CASE("soils may touch, not overlap") {
 
 TEST_CASE("the number of particles is bounded before memory is taken") {
   CHECK(errors_of(with("spacing = 0.5", "spacing = 1e-4")) ==
-        "box.toml:4:11: key 'particles.spacing' = 0.0001: makes 8e+08 particles, which need about 800 GB of "
+        "box.toml:4:11: key 'particles.spacing' = 0.0001: makes 8e+08 particles, which need about 960 GB of "
         "memory; at "
         "most 5e+07");
   CHECK_THAT(errors_of(with("spacing = 0.5", "spacing = 1e-200")), Contains("makes inf particles"));
@@ -87,8 +87,8 @@ TEST_CASE("boundaries lie on an outline, with soil on one side") {
         "box.toml:26:1: key 'boundary[1]': has soil on both sides at (4, 1) (soil 'clay')");
   CHECK(errors_with(soil("clay", "[[2, 2], [4, 2], [4, 4], [2, 4]]") + boundary("[0, 2]", "[4, 2]")) ==
         "box.toml:26:1: key 'boundary[1]': has soil on both sides at (3, 2) (soil 'clay')");
-  CHECK(errors_with(soil("clay", "[[5, -2], [7, -2], [7, 0], [5, 0]]") + boundary("[5, 0]", "[5, -2]") +
-                    boundary("[4, 2]", "[4, -2]"))
+  CHECK(errors_with(soil("clay", "[[5, -2], [7, -2], [7, 0], [5, 0]]") +
+                    boundary("[5, 0]", "[5, -2]", "fixed") + boundary("[4, 2]", "[4, -2]"))
             .empty());
 }
 
@@ -120,9 +120,30 @@ TEST_CASE("gravity needs a boundary for each body") {
   const std::string apart = soil("clay", "[[5, 0], [6, 0], [6, 2], [5, 2]]");
   CHECK(
       errors_with(apart) ==
-      "box.toml:20:1: key 'soil[1]': soil 'clay' falls: gravity is applied and no boundary lies on its body");
+      "box.toml:20:1: key 'soil[1]': soil 'clay' falls: gravity is applied and its body has no boundary that "
+      "carries it, a fixed one or a roller that is not upright");
+  CHECK_THAT(errors_with(apart + boundary("[5, 0]", "[5, 2]")), Contains("soil 'clay' falls"));
+  CHECK(errors_with(apart + boundary("[5, 0]", "[5, 2]", "fixed")).empty());
   CHECK(errors_with(apart + "[loading]\ngravity_applied = false\n").empty());
   CHECK(errors_with(apart + boundary("[5, 0]", "[6, 0]")).empty());
+}
+
+TEST_CASE("soils keep clear of each other or touch") {
+  const auto at_x = [](const std::string& left) {
+    return errors_with(soil("clay", "[[" + left + ", 0], [9, 0], [9, 2], [" + left + ", 2]]") +
+                       boundary("[5, 0]", "[9, 0]"));
+  };
+  CHECK(at_x("4.2") ==
+        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' are 0.2 m apart, less than "
+        "particles.spacing = 0.5 m: they must touch, or keep clear of each other");
+  CHECK(at_x("4.00001").empty());
+  CHECK(at_x("4.5").empty());
+}
+
+TEST_CASE("the number of time steps is bounded") {
+  CHECK(
+      errors_of(with("youngs_modulus = 1e6", "youngs_modulus = 1e15"), {"time.end=1e9"}) ==
+      "override 'time.end=1e9': key 'time.end' = 1000000000: takes about 6.77e+15 time steps; at most 1e+10");
 }
 
 TEST_CASE("probes on the outline are inside") {

@@ -20,10 +20,10 @@ State integrated(double omega, double damping, int steps) {
   Vec2 x(1, 0), v = Vec2::Zero();
   for (int i = 0; i < steps; ++i) {
     const Vec2 a = -omega * omega * x;
-    v = (i == 0 ? first_kick : kick)(v, a, damping, dt);
+    v = (i == 0 ? first_kick : full_kick)(damping, dt)(v, a);
     x += dt * v;
   }
-  return {x, half_kick(v, -omega * omega * x, damping, dt)};
+  return {x, half_kick(damping, dt)(v, -omega * omega * x)};
 }
 
 State exact(double omega, double damping) {

@@ -1,0 +1,123 @@
+#include "app/results.hpp"
+
+#include <fmt/format.h>
+
+#include "app/command.hpp"
+#include "solver/case/case_file.hpp"
+#include "solver/output/fields.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/run_folder/summary_json.hpp"
+
+namespace porosph::app {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *case_name = "case.toml", *history_name = "history.csv", *summary_name = "summary.json",
+                     *series_name = "particles.pvd", *frames_name = "frames",
+                     *script_name = "open_in_paraview.py";
+
+/// Whether a case file means the same as this text, whatever it looks like.
+bool is_case(const fs::path& file, const std::string& case_text) {
+  try {
+    return write_case(read_case(file)) == case_text;
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
+bool holds_results(const fs::path& folder) {
+  return fs::exists(folder / history_name) || fs::exists(folder / summary_name) ||
+         fs::exists(folder / series_name) || has_checkpoint(folder);
+}
+
+void remove_results(const fs::path& folder) {
+  const auto remove = [](const fs::path& file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw WriteError(file, error.message());
+  };
+  remove_checkpoints(folder);
+  for (const char* name : {summary_name, series_name, script_name, history_name}) remove(folder / name);
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / frames_name, none))
+    if (entry.path().filename().string().starts_with("particles_")) remove(entry.path());
+}
+
+/// Takes the folder for this case, empty of results. The case file comes last: what is in the folder is never
+/// that of another.
+fs::path taken(const fs::path& folder, const std::string& case_text) {
+  make_folder(folder);
+  remove_results(folder);
+  write_file(folder / case_name, case_text);
+  return folder / history_name;
+}
+
+double time_of(std::int64_t step, const Simulation& s) { return static_cast<double>(step) * s.time_step(); }
+
+}  // namespace
+
+void check_owner(const fs::path& folder, const std::string& case_text, bool resume) {
+  std::error_code none;
+  if (!fs::is_directory(folder, none)) return;
+  const fs::path case_file = folder / case_name;
+  if (fs::exists(case_file) ? !is_case(case_file, case_text) : holds_results(folder))
+    throw UsageError(
+        fmt::format("{} holds {} of another case: choose another folder with --out, or give --force to "
+                    "replace it",
+                    folder.string(), holds_results(folder) ? "results" : "the case file"));
+  if (!resume && has_checkpoint(folder))
+    throw UsageError(
+        fmt::format("{} holds an interrupted run of this case: --resume goes on with it, --force begins anew",
+                    folder.string()));
+}
+
+std::optional<Summary> finished_summary(const fs::path& folder) {
+  if (has_checkpoint(folder) || !fs::exists(folder / summary_name)) return std::nullopt;
+  Summary summary = read_summary(folder / summary_name);
+  if (summary.status == RunStatus::interrupted) return std::nullopt;
+  return summary;
+}
+
+Results::Results(const fs::path& folder, const Simulation& simulation, [[maybe_unused]] bool frames)
+    : folder_(folder),
+      case_text_(write_case(simulation.scene())),
+      history_(taken(folder, case_text_), history_columns(simulation)) {
+#ifdef POROSPH_HAS_VTK
+  if (frames) series_.emplace(folder_);
+#endif
+}
+
+Results::Results(const fs::path& folder, const Simulation& simulation, bool frames,
+                 const RunProgress& progress)
+    : folder_(folder),
+      case_text_(write_case(simulation.scene())),
+      history_(HistoryWriter::resume(folder / history_name, history_columns(simulation),
+                                     time_of(progress.recorded, simulation))) {
+  if (const bool had_frames = fs::exists(folder_ / series_name); had_frames != frames)
+    throw UsageError(fmt::format("the run in {} was begun {} frames, and can only be resumed so",
+                                 folder_.string(), had_frames ? "with" : "without"));
+#ifdef POROSPH_HAS_VTK
+  if (frames) series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation)));
+#endif
+}
+
+void Results::frame([[maybe_unused]] Simulation& s) {
+#ifdef POROSPH_HAS_VTK
+  if (series_) series_->write(make_frame(s, s.scene().output.fields));
+#endif
+}
+
+void Results::checkpoint(const std::string& state) {
+  history_.sync();  // the rows up to here must not be lost when the state is kept
+  write_checkpoint(folder_, case_text_, state);
+}
+
+void Results::finish(const Summary& summary) {
+  history_.sync();
+  write_summary(folder_ / summary_name, summary);
+  if (summary.status != RunStatus::interrupted) remove_checkpoints(folder_);
+}
+
+}  // namespace porosph::app

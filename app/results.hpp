@@ -1,0 +1,50 @@
+// The folder of a run: whose it is, and the files in it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "solver/simulation/run.hpp"
+#include "vtk_io/run_folder/checkpoint.hpp"
+#include "vtk_io/run_folder/history_csv.hpp"
+#ifdef POROSPH_HAS_VTK
+#include "vtk_io/particle_series.hpp"
+#endif
+
+namespace porosph::app {
+
+/// Throws UsageError where a run of this case would write over what is not its own: another case's results or
+/// case file, or (unless it is resumed) an interrupted run's checkpoint.
+void check_owner(const std::filesystem::path& folder, const std::string& case_text, bool resume);
+
+/// How a run of the folder ended, if it is done: neither interrupted nor still to be resumed.
+std::optional<Summary> finished_summary(const std::filesystem::path& folder);
+
+/// The folder's files, fed by the run. All members throw WriteError.
+class Results {
+ public:
+  /// Begins anew: what an earlier run wrote there is removed.
+  Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames);
+
+  /// Goes on with the files of the run that left off at `progress`: what they hold beyond is removed. Throws
+  /// ReadError where they are not those of that run; UsageError where it wrote frames and this one does not,
+  /// or the other way round.
+  Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames,
+          const RunProgress& progress);
+
+  void frame(Simulation& simulation);
+  void row(const std::vector<double>& values) { history_.append(values); }
+  void checkpoint(const std::string& state);
+  void finish(const Summary& summary);
+
+ private:
+  std::filesystem::path folder_;
+  std::string case_text_;
+  HistoryWriter history_;
+#ifdef POROSPH_HAS_VTK
+  std::optional<SeriesWriter> series_;
+#endif
+};
+
+}  // namespace porosph::app

@@ -1,0 +1,323 @@
+// Compiled once for each kind of vector units, into a namespace of that name. Everything that it calls must
+// be inlined: a function shared with other files could be linked in from here and be too wide for a
+// processor.
+#include "solver/motion/kernels/consistent_kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/stabilisation/bulk_viscosity.hpp"
+
+namespace porosph::POROSPH_VECTOR_UNITS {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int width = 8;
+#elif defined(__AVX__)
+constexpr int width = 4;
+#else
+constexpr int width = 2;
+#endif
+using Vector = double __attribute__((vector_size(8 * width)));
+
+enum : int { xx, xy, yx, yy };
+enum : int { pressure_lane = 4, velocity_lane = 6 };  // the flux comes first
+
+/// A number of each of a tile's particles. Stretches are summed in whole vectors, which may reach over the
+/// tile's ends.
+struct Row {
+  static constexpr int slack = PairStencils::shortest;
+  alignas(64) double numbers[slack + PairStencils::tile + slack];
+  double* value = numbers + slack;
+  double* of(std::int32_t a, std::int32_t first) { return value + (a - first); }
+};
+
+inline Vector load(const double* p) {
+  Vector v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(double* p, const Vector& v) { __builtin_memcpy(p, &v, sizeof v); }
+
+struct TileRange {
+  std::int32_t first, last;
+  const PairStencils::Piece *piece, *piece_end;
+};
+
+inline TileRange range_of(const PairStencils& s, std::int32_t tile) {
+  const std::int32_t first = tile * PairStencils::tile;
+  return {first, std::min(first + PairStencils::tile, static_cast<std::int32_t>(s.stretch_of.size())),
+          s.pieces.data() + s.first_piece[tile], s.pieces.data() + s.first_piece[tile + 1]};
+}
+
+/// Calls use(a) with `a` the first of each `width` consecutive particles of the stretch that cover the piece.
+template <class Use>
+inline void by_vectors(const PairStencils::Piece& piece, const PairStencils::Stretch& stretch, Use&& use) {
+  static_assert(width <= PairStencils::shortest);
+  for (std::int32_t a = piece.first; a < piece.last; a += width)
+    use(std::max(stretch.first, std::min(a, piece.last - width)));
+}
+
+/// sum_b (v_b - v_a) (x) G_ab of a stretch.
+void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
+  const PairStencils& s = *c.stencils;
+  const PairStencils::Stretch stretch = s.stretches[piece.stretch];
+  const std::int32_t* offset = s.offset.data();
+  const PairGeometry* g = s.shared.data();
+  by_vectors(piece, stretch, [&](std::int32_t a) {
+    const double *vx = c.velocity[0] + a, *vy = c.velocity[1] + a;
+    const PairGeometry own = g[stretch.pairs];
+    const Vector x = load(vx), y = load(vy);
+    Vector sum_xx = -own.x * x, sum_xy = -own.y * x, sum_yx = -own.x * y, sum_yy = -own.y * y;
+    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
+      const Vector bx = load(vx + offset[k]), by = load(vy + offset[k]);
+      sum_xx += g[k].x * bx, sum_xy += g[k].y * bx;
+      sum_yx += g[k].x * by, sum_yy += g[k].y * by;
+    }
+    store(out[xx].of(a, first), sum_xx), store(out[xy].of(a, first), sum_xy);
+    store(out[yx].of(a, first), sum_yx), store(out[yy].of(a, first), sum_yy);
+  });
+}
+
+/// The same of a particle with a list of its own. Two sums of each: an addition need not wait for the one
+/// before.
+inline void own_rates(const ConsistentArrays& c, std::int32_t a, std::int32_t first, Row* out) {
+  const PairStencils& s = *c.stencils;
+  const std::int32_t* index = s.index.data();
+  const PairGeometry* g = s.own.data();
+  const auto velocity = [&](std::int32_t b) {
+    return *reinterpret_cast<const Pair*>(reinterpret_cast<const double*>(c.records + b) + velocity_lane);
+  };
+  std::int64_t k = s.begin[a];
+  const std::int64_t last = s.begin[a + 1];
+  const Pair mine = velocity(a);
+  Pair x = -g[k].x * mine, y = -g[k].y * mine, x2{}, y2{};
+  for (++k; k + 1 < last; k += 2) {
+    const Pair v = velocity(index[k]), v2 = velocity(index[k + 1]);
+    x += v * g[k].x, x2 += v2 * g[k + 1].x;
+    y += v * g[k].y, y2 += v2 * g[k + 1].y;
+  }
+  if (k < last) x += velocity(index[k]) * g[k].x, y += velocity(index[k]) * g[k].y;
+  x += x2, y += y2;
+  *out[xx].of(a, first) = x[0], *out[xy].of(a, first) = y[0];
+  *out[yx].of(a, first) = x[1], *out[yy].of(a, first) = y[1];
+}
+
+/// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
+inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
+  for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
+    if (piece->stretch != PairStencils::own_list)
+      shared_rates(c, *piece, tile.first, rate);
+    else
+      for (std::int32_t a = piece->first; a < piece->last; ++a) own_rates(c, a, tile.first, rate);
+  }
+  const double *lxx = c.correction[xx] + tile.first, *lxy = c.correction[xy] + tile.first;
+  const double *lyx = c.correction[yx] + tile.first, *lyy = c.correction[yy] + tile.first;
+  const std::int32_t count = tile.last - tile.first;
+#pragma omp simd
+  for (std::int32_t i = 0; i < count; ++i) {
+    const double axx = rate[xx].value[i], axy = rate[xy].value[i];
+    const double ayx = rate[yx].value[i], ayy = rate[yy].value[i];
+    rate[xx].value[i] = axx * lxx[i] + axy * lxy[i], rate[xy].value[i] = axx * lyx[i] + axy * lyy[i];
+    rate[yx].value[i] = ayx * lxx[i] + ayy * lxy[i], rate[yy].value[i] = ayx * lyx[i] + ayy * lyy[i];
+  }
+}
+
+void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
+  const TileRange tile = range_of(*c.stencils, number);
+  Row rate[4];
+  tile_rates(c, tile, rate);
+  for (std::int32_t i = 0; i < tile.last - tile.first; ++i)
+    for (int k = 0; k < 4; ++k) out[4 * i + k] = rate[k].value[i];
+}
+
+/// By value: std::max keeps the loop from becoming vector code.
+inline double larger(double a, double b) { return a > b ? a : b; }
+
+/// F, stress and density after the step, P and the flux fill P L - mu (dF/dt + k (F - I)).
+template <bool one_soil>
+LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, const Row* rate, Row* piola,
+                            double dt) {
+  const std::int32_t first = tile.first, count = tile.last - tile.first;
+  double *dxx = c.deformation[xx] + first, *dxy = c.deformation[xy] + first;
+  double *dyx = c.deformation[yx] + first, *dyy = c.deformation[yy] + first;
+  double *stress = c.stress + 4 * first, *density = c.density + first;
+  double *qxx = c.flux[xx] + first, *qxy = c.flux[xy] + first, *qyx = c.flux[yx] + first,
+         *qyy = c.flux[yy] + first;
+  const double *lxx = c.correction[xx] + first, *lxy = c.correction[xy] + first;
+  const double *lyx = c.correction[yx] + first, *lyy = c.correction[yy] + first;
+  const double *vx = c.velocity[0] + first, *vy = c.velocity[1] + first;
+  const double* reference_density = c.reference_density + first;
+  const std::int32_t soil = one_soil ? 0 : first;
+  const double *shear = c.shear_modulus + soil, *bulk = c.bulk_modulus + soil,
+               *no_tension = c.no_tension + soil;
+  const double* fill = c.fill + first;
+  const double mu = c.zero_energy_viscosity, elastic = c.zero_energy_rate;
+  const double bulk_length = c.bulk_length, half = 0.5 * dt;
+  double strain = 0, speed_squared = 0;
+#pragma omp simd reduction(max : strain, speed_squared)
+  for (std::int32_t i = 0; i < count; ++i) {
+    const double rxx = rate[xx].value[i], rxy = rate[xy].value[i];
+    const double ryx = rate[yx].value[i], ryy = rate[yy].value[i];
+    const double mxx = dxx[i] + half * rxx, mxy = dxy[i] + half * rxy;
+    const double myx = dyx[i] + half * ryx, myy = dyy[i] + half * ryy;
+    const double scale = 1 / (mxx * myy - mxy * myx);  // mid-step dv/dx = dF/dt F^-1 (Hughes and Winget 1980)
+    const Gradient gradient((rxx * myy - rxy * myx) * scale, (rxy * mxx - rxx * mxy) * scale,
+                            (ryx * myy - ryy * myx) * scale, (ryy * mxx - ryx * mxy) * scale);
+    const std::int32_t k = one_soil ? 0 : i;
+    const LinearElastic material{shear[k], bulk[k], no_tension[k] != 0};
+    const Stress s = material.update({stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]},
+                                     gradient, dt);
+    stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
+
+    const double fxx = dxx[i] + dt * rxx, fxy = dxy[i] + dt * rxy;
+    const double fyx = dyx[i] + dt * ryx, fyy = dyy[i] + dt * ryy;
+    dxx[i] = fxx, dxy[i] = fxy, dyx[i] = fyx, dyy[i] = fyy;
+    density[i] = reference_density[i] / (fxx * fyy - fxy * fyx);
+
+    const double rho_c = std::sqrt(material.constrained_modulus() * density[i]);
+    const double q = bulk_viscosity(bulk_length, rho_c, gradient.trace());
+    const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
+    const double pxx = txx * fyy - s.xy * fxy, pxy = s.xy * fxx - txx * fyx;
+    const double pyx = s.xy * fyy - tyy * fxy, pyy = tyy * fxx - s.xy * fyx;
+    piola[xx].value[i] = pxx, piola[xy].value[i] = pxy, piola[yx].value[i] = pyx, piola[yy].value[i] = pyy;
+    const double sxx = fill[i] * lxx[i], sxy = fill[i] * lxy[i], syx = fill[i] * lyx[i],
+                 syy = fill[i] * lyy[i];
+    qxx[i] = pxx * sxx + pxy * syx - mu * (rxx + elastic * (fxx - 1));
+    qxy[i] = pxx * sxy + pxy * syy - mu * (rxy + elastic * fxy);
+    qyx[i] = pyx * sxx + pyy * syx - mu * (ryx + elastic * fyx);
+    qyy[i] = pyx * sxy + pyy * syy - mu * (ryy + elastic * (fyy - 1));
+    strain = larger(
+        strain, larger(larger(std::abs(fxx - 1), std::abs(fyy - 1)), larger(std::abs(fxy), std::abs(fyx))));
+    speed_squared = larger(speed_squared, vx[i] * vx[i] + vy[i] * vy[i]);
+  }
+  return {strain, speed_squared};
+}
+
+void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestChange& largest) {
+  const TileRange tile = range_of(*c.stencils, number);
+  Row rate[4], piola[4];
+  tile_rates(c, tile, rate);
+  const LargestChange change = c.one_soil ? material_step<true>(c, tile, rate, piola, dt)
+                                          : material_step<false>(c, tile, rate, piola, dt);
+  largest.strain = std::max(largest.strain, change.strain);
+  largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);
+  for (std::int32_t a = tile.first; a < tile.last; ++a) {
+    if (c.listed[a]) {
+      double* q = reinterpret_cast<double*>(c.records + a);
+      for (int k = 0; k < 4; ++k) q[k] = c.flux[k][a];
+    }
+    if (c.mirrored[a])
+      for (int k = 0; k < 4; ++k) c.piola[4 * a + k] = piola[k].value[a - tile.first];
+  }
+}
+
+enum : int { force_x, force_y, pressure_x, pressure_y };
+
+/// sum_b (P_a L_a + P_b L_b) G_ab with the zero-energy term, and sum_b (p_b - p_a) G_ab, of a stretch.
+template <bool wet>
+void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
+  const PairStencils& s = *c.stencils;
+  const PairStencils::Stretch stretch = s.stretches[piece.stretch];
+  const std::int32_t* offset = s.offset.data();
+  const PairGeometry* g = s.shared.data();
+  const double viscous = 2 * c.zero_energy_viscosity;
+  by_vectors(piece, stretch, [&](std::int32_t a) {
+    const double *qxx = c.flux[xx] + a, *qxy = c.flux[xy] + a, *qyx = c.flux[yx] + a, *qyy = c.flux[yy] + a;
+    const double *vx = c.motion[0] + a, *vy = c.motion[1] + a, *pw = c.pressure + a;
+    const PairGeometry own = g[stretch.pairs];
+    const double own_w = viscous * own.w;
+    Vector fx = load(qxx) * own.x, fx2 = load(qxy) * own.y, fx3 = -own_w * load(vx);
+    Vector fy = load(qyx) * own.x, fy2 = load(qyy) * own.y, fy3 = -own_w * load(vy);
+    Vector px{}, py{};
+    if (wet) px = -own.x * load(pw), py = -own.y * load(pw);
+    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
+      const std::int32_t b = offset[k];
+      const double gx = g[k].x, gy = g[k].y, w = viscous * g[k].w;
+      fx += gx * load(qxx + b), fx2 += gy * load(qxy + b), fx3 += w * load(vx + b);
+      fy += gx * load(qyx + b), fy2 += gy * load(qyy + b), fy3 += w * load(vy + b);
+      if (wet) {
+        const Vector p = load(pw + b);
+        px += gx * p, py += gy * p;
+      }
+    }
+    store(out[force_x].of(a, first), fx + fx2 + fx3), store(out[force_y].of(a, first), fy + fy2 + fy3);
+    if (wet) store(out[pressure_x].of(a, first), px), store(out[pressure_y].of(a, first), py);
+  });
+}
+
+/// The same of a particle with a list of its own.
+inline void own_sums(const ConsistentArrays& c, std::int32_t a, std::int32_t first, Row* out) {
+  const PairStencils& s = *c.stencils;
+  const Record* records = c.records;
+  const std::int32_t* index = s.index.data();
+  const PairGeometry* g = s.own.data();
+  std::int64_t k = s.begin[a];
+  const std::int64_t last = s.begin[a + 1];
+  const PairGeometry sum = g[k];
+  Lanes x{}, y{}, w{}, x2{}, y2{}, w2{};
+  for (++k; k + 1 < last; k += 2) {
+    const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
+    x += q * g[k].x, x2 += q2 * g[k + 1].x;
+    y += q * g[k].y, y2 += q2 * g[k + 1].y;
+    w += q * g[k].w, w2 += q2 * g[k + 1].w;
+  }
+  if (k < last) {
+    const Lanes q = records[index[k]].q;
+    x += q * g[k].x, y += q * g[k].y, w += q * g[k].w;
+  }
+  x += x2, y += y2, w += w2;
+  const Lanes own = records[a].q;
+  const double viscous = 2 * c.zero_energy_viscosity;
+  constexpr int v = velocity_lane, p = pressure_lane;
+  *out[force_x].of(a, first) =
+      x[xx] + y[xy] + own[xx] * sum.x + own[xy] * sum.y + viscous * (w[v] - own[v] * sum.w);
+  *out[force_y].of(a, first) =
+      x[yx] + y[yy] + own[yx] * sum.x + own[yy] * sum.y + viscous * (w[v + 1] - own[v + 1] * sum.w);
+  *out[pressure_x].of(a, first) = x[p] - own[p] * sum.x;  // eq. (22)
+  *out[pressure_y].of(a, first) = y[p] - own[p] * sum.y;
+}
+
+template <bool wet>
+void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out) {
+  const TileRange tile = range_of(*c.stencils, number);
+  Row sum[4];
+  for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
+    if (piece->stretch != PairStencils::own_list)
+      shared_sums<wet>(c, *piece, tile.first, sum);
+    else
+      for (std::int32_t a = piece->first; a < piece->last; ++a) own_sums(c, a, tile.first, sum);
+  }
+  const std::int32_t first = tile.first, count = tile.last - tile.first;
+  const double *fxx = c.deformation[xx] + first, *fxy = c.deformation[xy] + first;
+  const double *fyx = c.deformation[yx] + first, *fyy = c.deformation[yy] + first;
+  const double *lxx = c.correction[xx] + first, *lxy = c.correction[xy] + first;
+  const double *lyx = c.correction[yx] + first, *lyy = c.correction[yy] + first;
+  const double *rho = c.reference_density + first, *fill = c.fill + first;
+  const double gx = c.gravity[0], gy = c.gravity[1];
+  double* result = out + 2 * static_cast<std::int64_t>(first);
+#pragma omp simd
+  for (std::int32_t i = 0; i < count; ++i) {
+    const double per_fill = 1 / fill[i];
+    double fx = per_fill * sum[force_x].value[i], fy = per_fill * sum[force_y].value[i];
+    if (wet) {
+      const double px = sum[pressure_x].value[i], py = sum[pressure_y].value[i];
+      const double x = lxx[i] * px + lxy[i] * py, y = lyx[i] * px + lyy[i] * py;
+      fx += fyy[i] * x - fyx[i] * y, fy += fxx[i] * y - fxy[i] * x;  // J F^-T, the cofactors of F
+    }
+    const double per_mass = 1 / rho[i];
+    result[2 * i] = fx * per_mass + gx, result[2 * i + 1] = fy * per_mass + gy;
+  }
+}
+
+void accelerate(const ConsistentArrays& c, std::int32_t tile, double* out) {
+  c.wet ? accelerate_tile<true>(c, tile, out) : accelerate_tile<false>(c, tile, out);
+}
+
+}  // namespace
+
+extern const ConsistentKernels consistent_kernels;
+const ConsistentKernels consistent_kernels = {rates, strain, accelerate};
+
+}  // namespace porosph::POROSPH_VECTOR_UNITS

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Makes the mistakes of docs/errors.md and compares what the program says with what stands there.
+
+Usage: error_table.py PROGRAM [--write]      --write makes the document anew
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "docs" / "errors.md"
+HEAD = """# What goes wrong, and what is said then
+
+A test makes every mistake below and compares the program's words with this page. To make the page anew, build the
+preset `tests` and run
+
+    tests/app/error_table.py build/tests/bin/porosph --write
+
+All errors of a case are told at once, in the order of the file; here each stands alone. Lines and columns are those of
+this case:
+
+"""
+CASE = """title = "Box"
+[particles]
+spacing = 0.5
+[[soil]]
+name = "sand"
+polygon = [[0, 0], [4, 0], [4, 2], [0, 2]]
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+unit_weight_saturated = 20e3
+[[boundary]]
+kind = "fixed"
+from = [0, 0]
+to = [4, 0]
+[time]
+end = 0.1
+[[probe]]
+name = "A"
+position = [2, 1]
+"""
+CLAY = """[[soil]]
+name = "clay"
+polygon = [[4.2, 0], [9, 0], [9, 2], [4.2, 2]]
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+unit_weight_saturated = 20e3
+"""
+OUTLINE = "[[0, 0], [4, 0], [4, 2], [0, 2]]"
+
+# What is wrong, as a person would say it; then the text of the case that is replaced, and by what.
+IN_THE_CASE = [
+    ("a slip in the TOML", "end = 0.1", "end = 0.1 s"),
+    ("a key with a typing mistake", "youngs_modulus", "young_modulus"),
+    ("a key that is missing", "poissons_ratio = 0.3\n", ""),
+    ("a value out of range", "poissons_ratio = 0.3", "poissons_ratio = 0.5"),
+    ("text for a number", "end = 0.1", 'end = "0.1 s"'),
+    ("a number that is none", "end = 0.1", "end = nan"),
+    ("a word that is not offered", '"fixed"', '"fixd"'),
+    ("a setting that would not be used", "[time]", "[formulation]\nmotion = \"proposed\"\nbulk_viscosity = 0.1\n[time]"),
+    ("a name given twice", "[[boundary]]", CLAY.replace("clay", "sand").replace("4.2", "4") + "[[boundary]]"),
+    ("water twice", "[time]", "[water]\nlevel = 3\nstretches = [{level = 3}]\n[time]"),
+    ("a spacing that no computer can hold", "spacing = 0.5", "spacing = 1e-9"),
+    ("an end that no run reaches", "end = 0.1", "end = 1e9\ncourant = 1e-6"),
+    ("more frames than anyone wants", "[time]", "[output]\ninterval = 1e-9\n[time]"),
+]
+OF_THE_GROUND = [
+    ("an outline that crosses itself", OUTLINE, "[[0, 0], [4, 2], [4, 0], [0, 2]]"),
+    ("soil without area", OUTLINE, "[[0, 0], [4, 0], [8, 0]]"),
+    ("a layer thinner than the spacing", OUTLINE, "[[0, 0], [4, 0], [4, 0.3], [0, 0.3]]"),
+    ("soils that overlap", "[[boundary]]", CLAY.replace("4.2", "3") + "[[boundary]]"),
+    ("a gap between soils", "[[boundary]]", CLAY + "[[boundary]]"),
+    ("a body that nothing carries", "[[boundary]]", CLAY.replace("4.2", "6") + "[[boundary]]"),
+    ("sides that hold, and no bottom", '"fixed"\nfrom = [0, 0]\nto = [4, 0]', '"roller"\nfrom = [0, 0]\nto = [0, 2]'),
+    ("a boundary that touches nothing", "to = [4, 0]", "to = [4, -1]"),
+    ("a boundary inside the soil", "from = [0, 0]\nto = [4, 0]", "from = [0, 1]\nto = [4, 1]"),
+    ("a probe outside", "position = [2, 1]", "position = [2, 3]"),
+]
+# What is wrong, the command, and what is put into files beforehand.
+ON_THE_COMMAND_LINE = [
+    ("no such subcommand", "runn case.toml", {}),
+    ("no such option", "run case.toml --thread 2", {}),
+    ("no such case", "run cse.toml", {}),
+    ("an override of a key that is not there", "run case.toml --set soil.sand.youngs=1", {}),
+    ("an override of a soil that is not there", "run case.toml --set soil.clay.youngs_modulus=1e6", {}),
+    ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
+                                                                         "other/history.csv": "time\n"}),
+    ("no such field", "render run --field Stress", {}),
+    ("a component is needed", "render run --field EffectiveStress", {}),
+]
+WITH_FILES = [
+    ("a file in the place of the folder", "run case.toml --out file", {"file": "mine"}),
+    ("results of a run are not there", "render nothing --field PorePressure", {}),
+    ("a series cut short", "render bad --field PorePressure", {"bad/particles.pvd": "<?xml version=\"1.0\"?>\n<VTKFile"}),
+    ("a series of something else", "render bad --field PorePressure", {"bad/particles.pvd": "<VTKFile type=\"ImageData\"/>"}),
+    ("a series that leads out of its folder", "render bad --field PorePressure", {
+        "bad/particles.pvd": '<VTKFile type="Collection"><Collection><DataSet timestep="0" file="../run/frames/'
+                             'particles_000000.vtp"/></Collection></VTKFile>'}),
+    ("a frame cut short", "render bad --field PorePressure", {
+        "bad/particles.pvd": '<VTKFile type="Collection"><Collection><DataSet timestep="0" file="a.vtp"/></Collection>'
+                             '</VTKFile>', "bad/a.vtp": '<VTKFile type="PolyData">'}),
+    ("a history with a word in it", "report run2", {"run2/history.csv": "time,A.PorePressure\n0,high\n"}),
+    ("a summary cut short", "report run3", {"run3/summary.json": '{"title": "Box", '}),
+    ("a damaged checkpoint", "run case.toml --out run4 --resume", {"run4/checkpoint.bin": "rubbish"}),
+]
+
+
+def say(place, program, arguments):
+    outcome = subprocess.run(f"'{program}' {arguments}", shell=True, cwd=place, capture_output=True, text=True)
+    return outcome.returncode, outcome.stderr.strip()
+
+
+def row(what, how, status, message):
+    if status not in (2, 4) or not message:
+        sys.exit(f"{what}: exit status {status}, message {message!r}")
+    lines = message.replace("|", "\\|").split("\n")
+    return f"| {what} | {how} | {status} | {'<br>'.join(f'`{line}`' if '`' not in line else line for line in lines)} |\n"
+
+
+def table(title, rows):
+    return f"\n## {title}\n\n| What is wrong | Try | Exit | What is said |\n|---|---|---|---|\n" + "".join(rows)
+
+
+def in_a_case(place, program, mistakes):
+    rows = []
+    for what, old, new in mistakes:
+        if CASE.count(old) != 1:
+            sys.exit(f"{what}: {old!r} does not stand once in the case")
+        (place / "box.toml").write_text(CASE.replace(old, new))
+        how = f"`{old}` becomes `{new}`" if new and "\n" not in old + new and len(old + new) < 50 else ""
+        rows.append(row(what, how, *say(place, program, "check box.toml")))
+    return rows
+
+
+def by_command(place, program, mistakes):
+    rows = []
+    for what, arguments, files in mistakes:
+        for name, text in files.items():
+            (place / name).parent.mkdir(exist_ok=True)
+            (place / name).write_text(text)
+        rows.append(row(what, f"`{arguments}`", *say(place, program, arguments)))
+    return rows
+
+
+def main():
+    program = pathlib.Path(sys.argv[1]).resolve()
+    place = pathlib.Path(tempfile.mkdtemp(prefix="porosph_errors_"))
+    (place / "case.toml").write_text(CASE)
+    for folder in ("run", "run2", "run3", "run4"):
+        subprocess.run([program, "run", "case.toml", "--quiet", "--out", folder], cwd=place, check=True)
+    page = HEAD + "".join(f"    {line}\n" for line in CASE.splitlines())
+    page += table("In the case", in_a_case(place, program, IN_THE_CASE))
+    page += table("Of the ground", in_a_case(place, program, OF_THE_GROUND))
+    page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))
+    page += table("With files", by_command(place, program, WITH_FILES))
+    shutil.rmtree(place)
+    if "--write" in sys.argv:
+        DOCUMENT.write_text(page)
+    elif DOCUMENT.read_text() != page:
+        print(page)
+        sys.exit(f"{DOCUMENT} does not say this; make it anew with --write")
+
+
+if __name__ == "__main__":
+    main()
