@@ -155,8 +155,9 @@ void draw_axes(Canvas& canvas, const CategoryMap& map, const Layout& l) {
   for (std::size_t r = 0; r < map.y.labels.size(); ++r)
     canvas.text({l.grid.x - 8, l.cell(0, r).centre().y}, map.y.labels[r],
                 {.size = label_size, .horizontal = Align::high});
+  if (map.y.labels.size() < 2) return;  // one row needs no title, and has no room for it
   canvas.text({l.grid.x - 14 - widest(map.y.labels, label_size), l.grid.centre().y}, map.y.title,
-              {.size = fitting_size(map.y.title, axis_size, std::max(l.grid.height, 120.0)),
+              {.size = fitting_size(map.y.title, axis_size, l.grid.height + 24),
                .vertical = Align::low,
                .upright = true});
 }

@@ -8,6 +8,7 @@
 
 #include "render/category_map.hpp"
 #include "render/report/study.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
 namespace {
@@ -109,10 +110,14 @@ StudySection section_of(const SweptMap& map) {
   return section;
 }
 
-/// What the folder's study has beside these sections.
+/// What the folder's study has beside these sections; nothing where files of it are gone.
 Study study_there(const std::filesystem::path& folder, const std::vector<StudySection>& fresh) {
   Study study;
-  if (is_study(folder)) study = read_study(folder);
+  try {
+    if (is_study(folder)) study = read_study(folder);
+  } catch (const ReadError&) {
+    return {};
+  }
   std::erase_if(study.sections, [&](const StudySection& old) {
     return std::any_of(fresh.begin(), fresh.end(),
                        [&](const StudySection& s) { return s.heading == old.heading; });

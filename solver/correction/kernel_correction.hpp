@@ -8,17 +8,16 @@
 
 namespace porosph {
 
-/// L where the neighbours hardly span the plane (a lone particle, a row, a thin toe). `sum` is symmetric; its
-/// eigenvalues e become 1 / e, but e / least^2 below `least`: with the support the stiffness goes to zero,
-/// which is e L^2 and bounds the stable time step.
+/// L where the neighbours hardly span the plane (a lone particle, a row, a thin toe): the inverse of `sum`, a
+/// symmetric matrix, whose eigenvalues below `least` are taken as that. No gradient grows by more than
+/// 1 / least, which bounds the stiffness and with it the stable time step.
 inline Mat2 limited_correction(const Mat2& sum, double least) {
-  const auto limited = [least](double e) { return e > least ? 1 / e : e / (least * least); };
   const double mean = 0.5 * (sum(0, 0) + sum(1, 1)), half = 0.5 * (sum(0, 0) - sum(1, 1));
   const double radius = std::hypot(half, sum(0, 1));
-  const double along = limited(mean + radius), across = limited(mean - radius);
-  if (radius == 0) return Mat2(along * Mat2::Identity());
+  const double large = 1 / std::max(mean + radius, least), small = 1 / std::max(mean - radius, least);
+  if (radius == 0) return Mat2(large * Mat2::Identity());
   const Mat2 direction = (Mat2() << half, sum(0, 1), sum(1, 0), -half).finished() / radius;
-  return Mat2(0.5 * (along + across) * Mat2::Identity() + 0.5 * (along - across) * direction);
+  return Mat2(0.5 * (large + small) * Mat2::Identity() + 0.5 * (large - small) * direction);
 }
 
 /// L of eq. (10) from its sum, sum_b V_b grad_a W_ab (x) (x_b - x_a). (The paper prints x_a - x_b, which

@@ -1,6 +1,8 @@
 // Scenes that the stability tests share.
 #pragma once
 
+#include <omp.h>
+
 #include <string>
 #include <vector>
 
@@ -8,6 +10,9 @@
 #include "solver/simulation/simulation.hpp"
 
 namespace porosph {
+
+/// These scenes are too small to share between threads.
+inline const bool one_thread = (omp_set_num_threads(1), true);
 
 /// cases/<name>.toml with overrides.
 inline Case shipped_case(const std::string& name, const std::vector<std::string>& settings = {}) {

@@ -31,7 +31,7 @@ void rests(const Case& scene, std::int64_t steps, double allowed) {
 
 Case released_embankment(double end) {
   return shipped_case("embankment", {"particles.spacing=0.5", "time.courant=0.9", "loading.damping=0.03",
-                                     "loading.damping_until=6", "time.end=" + std::to_string(end)});
+                                     "loading.damping_until=12", "time.end=" + std::to_string(end)});
 }
 
 }  // namespace
