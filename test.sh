@@ -2,7 +2,7 @@
 # Installs what is missing, builds with all tests and runs them. Arguments go to ctest, e.g. ./test.sh -R render
 #   ./test.sh --paraview     instead: installs ParaView beside the build's own VTK and looks at runs with it
 #   ./test.sh --docs [FILE]  instead: runs the shell lines of README and docs, also the long ones, in a fresh clone
-#   ./test.sh --package      instead: packs the .deb, installs it and builds the example on it (needs to be root)
+#   ./test.sh --package      instead: packs the .deb, unpacks them elsewhere and builds the example on what they hold
 set -euo pipefail
 cd "$(dirname "$0")"
 preset=${POROSPH_PRESET:-tests}
