@@ -8,6 +8,7 @@
 #include "app/memory.hpp"
 #include "app/shipped_cases.hpp"
 #include "app/threads.hpp"
+#include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/simulation/simulation.hpp"
@@ -101,6 +102,8 @@ int check_command(const Arguments& arguments) {
   const Case scene = read_case(find_case(case_file), overrides);
   check_memory(scene);
   fmt::print("{} is valid: {}\n", case_file, scene.title);
+  std::fflush(stdout);
+  warn_of_known_failures(scene);
   const Demand demand = demand_of(scene);
   fmt::print("{:18}about {:.0f} MB\n", "memory", demand.bytes / 1e6);
   if (demand.particles > most_tried)

@@ -50,6 +50,17 @@ void print_help(const po::options_description& options, const po::positional_opt
             << examples;
 }
 
+/// As a shell would have to be given it.
+std::string quoted(const std::string& argument) {
+  const bool plain = !argument.empty() && argument.find_first_not_of(
+                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./,:=+@%") == std::string::npos;
+  if (plain) return argument;
+  std::string out = "'";
+  for (char c : argument) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 }  // namespace
 
 CommandHelp help_of(const Command& command) {
@@ -58,6 +69,12 @@ CommandHelp help_of(const Command& command) {
   command.run({"--help"});
   wanted_help = nullptr;
   return help;
+}
+
+std::string command_line(const std::string& subcommand, const Arguments& arguments) {
+  std::string text = "porosph " + subcommand;
+  for (const std::string& argument : arguments) text += " " + quoted(argument);
+  return text;
 }
 
 bool parse(const Arguments& arguments, const po::options_description& options,

@@ -54,12 +54,17 @@ bool parse(const Arguments& arguments, const boost::program_options::options_des
            const boost::program_options::positional_options_description& positional, const std::string& usage,
            const std::string& examples, boost::program_options::variables_map& values);
 
+/// The command line as a shell would have to be given it.
+std::string command_line(const std::string& subcommand, const Arguments& arguments);
+
 int run_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int render_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int fem_command(const Arguments& arguments);
+int stability_command(const Arguments& arguments);
+int bench_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
 int completion_command(const Arguments& arguments);

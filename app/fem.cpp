@@ -9,6 +9,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/fem/solve.hpp"
+#include "solver/model/water.hpp"
 #include "solver/simulation/probe.hpp"
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/fem_vtu.hpp"
@@ -83,7 +84,8 @@ int fem_command(const Arguments& arguments) {
     return Exit::done;
   if (values.count("edge") > 0 && !(edge > 0 && std::isfinite(edge)))
     throw UsageError(fmt::format("--edge = {}: must be > 0 m", edge));
-  const Case scene = read_case(find_case(case_file), overrides);
+  Case scene = read_case(find_case(case_file), overrides);
+  scene.water = at_rest_from(scene.water, scene.time.end);
   const fs::path folder =
       out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);
   const FemSolution solution = solve_fem(scene, mesh_case(scene, edge > 0 ? edge : usual_edge(scene)));

@@ -19,11 +19,13 @@ const std::vector<Command> commands = {
     {"list", "name the cases that come with the program", list_command},
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
+    {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
     {"render", "draw a picture of a series", render_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
+    {"bench", "measure speed, and run time against error", bench_command},
 #endif
     {"completion", "print what a shell needs to complete command lines", completion_command},
     {"man", "print the manual page", man_command},

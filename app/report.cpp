@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/left_out.hpp"
+#include "render/report/study.hpp"
 
 namespace porosph::app {
 namespace {
@@ -23,7 +24,9 @@ struct Options {
 std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
   po::options_description options;
-  options.add_options()("run", po::value(&o.runs)->required(), "folders of runs of one body")(
+  options.add_options()(
+      "run", po::value(&o.runs)->required(),
+      "folders of runs of one body, and of studies that go with them (porosph bench, stability)")(
       "fem", po::value(&o.fem)->value_name("DIR"),
       "also against the finite-element reference in this folder")(
       "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
@@ -37,7 +40,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
   po::positional_options_description positional;
   positional.add("run", -1);
   po::variables_map values;
-  if (!parse(arguments, options, positional, "report RUN... [options]",
+  if (!parse(arguments, options, positional, "report RUN... [STUDY...] [options]",
              "  porosph report results/foundation\n"
              "  porosph report results/a results/b --out report --fail-if "
              "'errors.EffectiveStress_YY.relative_l2>0.02'\n",
@@ -46,28 +49,23 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-/// As a shell would have to be given it.
-std::string quoted(const std::string& argument) {
-  const bool plain = !argument.empty() && argument.find_first_not_of(
-                                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_-./,:=+@%") == std::string::npos;
-  if (plain) return argument;
-  std::string out = "'";
-  for (char c : argument) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace
 
 int report_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
   ReportInput input;
-  input.command = "porosph report";
-  for (const std::string& argument : arguments) input.command += " " + quoted(argument);
+  input.command = command_line("report", arguments);
   input.left_out = read_left_out(o->left_out);
   for (const std::string& text : o->thresholds) input.thresholds.push_back(parse_threshold(text));
-  for (const std::string& run : o->runs) input.runs.push_back(open_run(run));
+  for (const std::string& folder : o->runs)
+    if (is_study(folder))
+      input.studies.push_back(folder);
+    else
+      input.runs.push_back(open_run(folder));
+  if (input.runs.empty())
+    throw UsageError(fmt::format("no run among the folders; the page of a study alone is {}",
+                                 (fs::path(o->runs.front()) / "index.html").string()));
   if (!o->fem.empty()) input.fem.emplace(o->fem);
   const std::vector<std::string> failed = write_report(input, o->out);
   fmt::print("{}\n", (fs::path(o->out) / "index.html").string());

@@ -13,6 +13,7 @@
 #include "app/shipped_cases.hpp"
 #include "app/summarise.hpp"
 #include "app/threads.hpp"
+#include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
@@ -157,6 +158,7 @@ int run_command(const Arguments& arguments) {
     }
   }
   check_memory(scene);
+  warn_of_known_failures(scene);
   Simulation simulation(scene);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a job needs and that are missing: install_packages.sh compute|release|tests|paraview|package
+# Installs the Debian packages that a job needs and that are missing:
+# install_packages.sh compute|release|tests|benchmarks|package|paraview
 set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
 release=("${compute[@]}" libvtk9-dev libosmesa6-dev fonts-dejavu-core)
 tests=("${release[@]}" catch2 python3 chromium)
+benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
 package=("${release[@]}" dpkg-dev file)  # packs the .deb
 paraview=("${release[@]}" paraview xvfb)  # its python modules: see scripts/paraview.sh
 
@@ -13,9 +15,10 @@ case "${1:-}" in
   compute) wanted=("${compute[@]}") ;;
   release) wanted=("${release[@]}") ;;
   tests) wanted=("${tests[@]}") ;;
+  benchmarks) wanted=("${benchmarks[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
   package) wanted=("${package[@]}") ;;
-  *) echo "usage: $0 compute|release|tests|paraview|package" >&2; exit 2 ;;
+  *) echo "usage: $0 compute|release|tests|benchmarks|package|paraview" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -83,6 +83,10 @@ std::string figure(const std::string& file, const std::string& description, cons
                      escaped(file), escaped(description), escaped(caption));
 }
 
+std::string paragraph(const std::string& text, const std::string& style) {
+  return fmt::format("<p{}>{}</p>\n", style.empty() ? "" : " class=\"" + style + "\"", escaped(text));
+}
+
 std::string section(const std::string& heading, const std::string& content) {
   return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escaped(heading), content);
 }

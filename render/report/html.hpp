@@ -17,6 +17,9 @@ std::string table(const std::vector<std::vector<std::string>>& rows, bool number
 /// below it.
 std::string figure(const std::string& file, const std::string& description, const std::string& caption);
 
+/// `style`: a class of the page's style sheet; empty for plain text.
+std::string paragraph(const std::string& text, const std::string& style = "");
+
 std::string section(const std::string& heading, const std::string& content);
 
 /// A whole page, light or dark as the reader's system is, fit to be printed, without scripts or outside

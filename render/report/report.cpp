@@ -13,6 +13,7 @@
 #include "render/report/html.hpp"
 #include "render/report/report_pictures.hpp"
 #include "render/report/settings.hpp"
+#include "render/report/study.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
 #include "solver/case/case_file.hpp"
@@ -98,7 +99,9 @@ Rows run_table(const std::vector<LoadedRun>& runs) {
                                              status_text(s.status),
                                              s.formulation,
                                              s.kernel_correction ? "on" : "off",
-                                             fmt::format("{:g}", r.run.scene->loading.damping),
+                                             r.run.scene->loading.adaptive_damping
+                                                 ? "adaptive"
+                                                 : fmt::format("{:g}", r.run.scene->loading.damping),
                                              fmt::format("{}", s.particles),
                                              fmt::format("{}", s.steps),
                                              fmt::format("{:.3g}", s.time_step),
@@ -264,6 +267,7 @@ std::string how_to_reproduce(const ReportInput& input, const std::vector<LoadedR
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
   require_reportable(input.runs);
+  for (const fs::path& study : input.studies) read_study(study);  // before anything is drawn
   if (input.fem)
     for (const FinishedRun& run : input.runs) require_same_problem(run, *input.fem);
   const std::vector<std::string> labels = run_labels(input.runs);
@@ -332,11 +336,14 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
 
   if (const Rows rows = settings_table(runs); rows.size() > 1)
     body += html::section("Settings that differ", html::table(rows, false));
+  for (std::size_t i = 0; i < input.studies.size(); ++i)
+    body += study_section(input.studies[i], folder, fmt::format("study_{}_", i + 1));
   body += html::section("How to reproduce", how_to_reproduce(input, runs));
   write_file(folder / "index.html", html::page(scene.title, body));
 
   Json json = {{"runs", Json::object()}, {"thresholds", checked.json}, {"warnings", warnings}};
   for (std::size_t i = 0; i < runs.size(); ++i) json["runs"][runs[i].label] = summaries[i];
+  for (const fs::path& study : input.studies) json["studies"].push_back(to_json(read_study(study)));
   write_file(folder / "report.json", json.dump(2) + "\n");
   return checked.failed;
 }

@@ -13,11 +13,12 @@
 namespace porosph {
 
 struct ReportInput {
-  std::vector<FinishedRun> runs;      ///< at least one
-  std::optional<FemReference> fem;    ///< what they are compared with beside their own reference
-  std::vector<LeftOut> left_out;      ///< of the norms against finite elements
-  std::vector<Threshold> thresholds;  ///< each is checked for each run
-  std::string command;                ///< the command line that makes this report
+  std::vector<FinishedRun> runs;               ///< at least one
+  std::optional<FemReference> fem;             ///< what they are compared with beside their own reference
+  std::vector<LeftOut> left_out;               ///< of the norms against finite elements
+  std::vector<Threshold> thresholds;           ///< each is checked for each run
+  std::vector<std::filesystem::path> studies;  ///< folders of studies, each shown as a section
+  std::string command;                         ///< the command line that makes this report
 };
 
 /// Writes index.html, its PNGs and report.json into `folder`; pictures are the same for the same runs.

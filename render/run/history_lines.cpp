@@ -41,8 +41,8 @@ std::optional<double> theory_at(const Case& scene, const ProbeCase& probe, const
 
 std::optional<ChartSeries> exact_vibration(const Case& scene, const ProbeCase& probe, double factor) {
   const LoadingCase& loading = scene.loading;
-  if (scene.reference != Reference::column || loading.damping != 0 || loading.k0_stress ||
-      !loading.gravity_applied)
+  if (scene.reference != Reference::column || loading.damping != 0 || loading.adaptive_damping ||
+      loading.coarse_starts > 0 || loading.k0_stress || !loading.gravity_applied)
     return std::nullopt;
   const ReferenceColumn reference = reference_column(scene);
   const Column& c = reference.column;

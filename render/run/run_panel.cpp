@@ -8,6 +8,7 @@
 
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/model/water.hpp"
 
 namespace porosph {
 namespace {
@@ -35,6 +36,16 @@ double usual_distance(const std::vector<Point>& positions) {
   if (nearest.empty()) return 1;
   std::nth_element(nearest.begin(), nearest.begin() + static_cast<long>(nearest.size() / 2), nearest.end());
   return nearest[nearest.size() / 2];
+}
+
+}  // namespace
+
+namespace {
+
+/// With the water level of that time [s].
+Case scene_at(Case scene, double time) {
+  scene.water = at_rest_from(scene.water, time);
+  return scene;
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
     for (std::size_t i = 0; i < x.size(); ++i) panel.particles.displacements.push_back({x[i], y[i]});
     panel.particles.displacement_factor = deformation - 1;  // the positions hold it once
   }
-  if (run.scene) panel.scenery = scenery_of(*run.scene);
+  if (run.scene) panel.scenery = scenery_of(scene_at(*run.scene, frame.time));
   return panel;
 }
 
@@ -87,7 +98,7 @@ std::string formulation_text(const FinishedRun& run) {
   if (!run.scene) return "";
   const FormulationCase& f = run.scene->formulation;
   return std::string(motion_name(f.motion)) + (f.kernel_correction ? "" : ", without kernel correction") +
-         (run.scene->loading.damping > 0 ? "" : ", undamped");
+         (run.scene->loading.damping > 0 || run.scene->loading.adaptive_damping ? "" : ", undamped");
 }
 
 }  // namespace porosph

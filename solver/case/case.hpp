@@ -18,6 +18,7 @@ enum class Arrangement {
   lattice,     ///< square lattice, cell centres inside or on the outline; every particle the same volume
   fitted,      ///< square lattice whose cells are clipped by the outline: volumes and centroids fit it
   disordered,  ///< fitted cells of randomly displaced points (for tests of robustness)
+  surface,     ///< rows of particles on the free surfaces, with the part of a cell that is soil
 };
 
 struct ParticlesCase {
@@ -50,8 +51,9 @@ struct WaterStretch {
   double level = 0;                      ///< y of the free surface [m]
 };
 struct WaterCase {
-  double unit_weight = 9810;  ///< gamma_w [N/m3]
-  std::vector<WaterStretch> stretches;
+  double unit_weight = 9810;            ///< gamma_w [N/m3]
+  std::vector<WaterStretch> stretches;  ///< at t = 0
+  std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
   bool present() const { return !stretches.empty(); }
 };
 
@@ -78,7 +80,8 @@ struct FormulationCase {
   double artificial_viscosity_beta = 0;   ///< quadratic term [-]
   double artificial_stress = 0;           ///< epsilon of the artificial stress [-]; 0 is off
   double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
-  double zero_energy_control = 0;  ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
+  double zero_energy_control = 0;    ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
+  double zero_energy_stiffness = 0;  ///< elastic part of that control: it acts on v + this * c_p / h * u [-]
   double refresh_strain =
       0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
 };
@@ -89,7 +92,9 @@ struct LoadingCase {
   bool k0_stress = false;       ///< start from the K0 stress instead of zero stress
   double k0 = -1;      ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
   double damping = 0;  ///< xi of eq. (34) [-]
-  double damping_until = never;  ///< time at which the damping ends [s]
+  bool adaptive_damping = false;  ///< c_d from the lowest vibration of the motion, in place of xi / dt
+  int coarse_starts = 0;          ///< coarser runs to start from, each of twice the spacing of the next
+  double damping_until = never;   ///< time at which the damping ends [s]
 };
 
 struct TimeCase {

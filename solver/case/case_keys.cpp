@@ -13,12 +13,16 @@ class Collector : public Fields {
 
   void number(const Key& key, double&, const Range&) override { add(key); }
   void numbers(const Key& key, std::vector<double>&, const Range&) override { add(key); }
+  void number_or(const Key& key, double&, const Range&, std::string_view word, bool&) override {
+    add(key, {"", std::string(word)});
+  }
   void integer(const Key& key, int&, const Range&) override { add(key); }
   void flag(const Key& key, bool&) override { add(key, {"true", "false"}); }
   void text(const Key& key, std::string&) override { add(key); }
   void name(const Key& key, std::string&) override { add(key); }
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string>) override { add(key); }
   void point(const Key& key, Point&) override { add(key); }
+  void pairs(const Key& key, std::vector<Point>&) override { add(key); }
   void polygon(const Key& key, Polygon&) override { add(key); }
   void polygons(const Key& key, std::vector<Polygon>&) override { add(key); }
 

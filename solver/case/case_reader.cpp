@@ -65,6 +65,18 @@ class Reader : public Fields {
     }
   }
 
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    const toml::node* node = key.is_used ? table_->get(key.name) : nullptr;
+    const auto given = node ? node->value<std::string>() : std::nullopt;
+    if (!given) return is_word = is_word && !node, number(key, value, range);
+    known_.emplace_back(key.name);
+    if (is_word = *given == word; !is_word)
+      fail(key, path(key),
+           fmt::format("must be a number {} or \"{}\"{}", range.text(), word,
+                       did_you_mean(nearest(*given, {std::string(word)}))));
+  }
+
   void integer(const Key& key, int& value, const Range& range) override {
     const toml::node* node = find(key);
     if (!node) return;
@@ -109,6 +121,20 @@ class Reader : public Fields {
 
   void point(const Key& key, Point& value) override {
     if (const toml::node* node = find(key)) read_point(key, path(key), *node, value);
+  }
+
+  void pairs(const Key& key, std::vector<Point>& values) override {
+    const toml::array* items = array(key, "a list of pairs");
+    if (!items) return;
+    if (items->size() < 2 || items->size() > most_points)
+      return fail(key, path(key), fmt::format("must be a list of 2 to {} pairs", most_points));
+    values.assign(items->size(), Point::Zero());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      if (!read_point(key, at, *items->get(i), values[i])) return;
+      if (i > 0 && values[i].x() <= values[i - 1].x())
+        return fail(key, at, fmt::format("must come after {}", values[i - 1].x()));
+    }
   }
 
   void polygon(const Key& key, Polygon& value) override {

@@ -22,6 +22,9 @@ class Documenter : public Fields {
   void numbers(const Key& key, std::vector<double>&, const Range& range) override {
     row(key, "list of numbers", "[]", range.text());
   }
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word, bool&) override {
+    row(key, "number or text", fmt::to_string(value), fmt::format("{}; `{}`", range.text(), word));
+  }
   void integer(const Key& key, int& value, const Range& range) override {
     row(key, "whole number", fmt::to_string(value), range.text());
   }
@@ -37,6 +40,9 @@ class Documenter : public Fields {
   }
   void point(const Key& key, Point& value) override {
     row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");
+  }
+  void pairs(const Key& key, std::vector<Point>&) override {
+    row(key, "list of pairs", "", "[[t, y], ...], t increasing, 2 pairs or more");
   }
   void polygon(const Key& key, Polygon&) override {
     row(key, "polygon", "", "[[x, y], ...], 3 points or more");

@@ -21,6 +21,13 @@ class Writer : public Fields {
   void numbers(const Key& key, std::vector<double>& values, const Range&) override {
     line(key, toml_text(values));
   }
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    if (is_word)
+      line(key, fmt::format("\"{}\"", word));
+    else
+      number(key, value, range);
+  }
   void integer(const Key& key, int& value, const Range&) override { line(key, fmt::to_string(value)); }
   void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
   void text(const Key& key, std::string& value) override { line(key, toml_text(value)); }
@@ -29,6 +36,9 @@ class Writer : public Fields {
     line(key, toml_text(values));
   }
   void point(const Key& key, Point& value) override { line(key, toml_text(value)); }
+  void pairs(const Key& key, std::vector<Point>& values) override {
+    if (!values.empty()) line(key, toml_text(values));
+  }
   void polygon(const Key& key, Polygon& value) override { line(key, toml_text(value)); }
   void polygons(const Key& key, std::vector<Polygon>& values) override { line(key, toml_text(values)); }
 

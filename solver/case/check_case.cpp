@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/case/check_boundaries.hpp"
 #include "solver/case/demand.hpp"
@@ -51,6 +52,10 @@ void check_soils(const Case& c, Issues& issues) {
       issues.push_back({at("soil", i, "polygon"),
                         fmt::format("soil '{}' is {:.4g} m thick, less than particles.spacing = {} m",
                                     c.soils[i].name, width, dx)});
+    else if (width < std::ldexp(dx, c.loading.coarse_starts) * (1 - 1e-9))
+      issues.push_back({"loading.coarse_starts",
+                        fmt::format("soil '{}' is {:.4g} m thick, less than the coarsest spacing, {:.4g} m",
+                                    c.soils[i].name, width, std::ldexp(dx, c.loading.coarse_starts))});
     for (std::size_t j = 0; j < i; ++j) {
       const double common = overlap(c.soils[i], c.soils[j]);
       if (common > 1e-6 * dx * dx)

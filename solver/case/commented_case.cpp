@@ -38,6 +38,11 @@ class Explainer : public Fields {
   void numbers(const Key& key, std::vector<double>& values, const Range& range) override {
     line(key, toml_text(values), range.text());
   }
+  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
+                 bool& is_word) override {
+    line(key, is_word ? fmt::format("\"{}\"", word) : toml_text(value),
+         fmt::format("{}, or \"{}\"", range.text(), word));
+  }
   void integer(const Key& key, int& value, const Range& range) override {
     line(key, fmt::to_string(value), range.text());
   }
@@ -49,6 +54,9 @@ class Explainer : public Fields {
     line(key, toml_text(values), fmt::format("{}", fmt::join(allowed, ", ")));
   }
   void point(const Key& key, Point& value) override { line(key, toml_text(value), "[x, y]"); }
+  void pairs(const Key& key, std::vector<Point>& values) override {
+    line(key, toml_text(values), "[[a, b], ...]");
+  }
   void polygon(const Key& key, Polygon& value) override { line(key, toml_text(value), "[[x, y], ...]"); }
   void polygons(const Key& key, std::vector<Polygon>& values) override {
     line(key, toml_text(values), "[[[x, y], ...], ...]");

@@ -4,12 +4,13 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/model/water.hpp"
 
 namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 3> arrangements{"lattice", "fitted", "disordered"};
+constexpr std::array<Names, 4> arrangements{"lattice", "fitted", "disordered", "surface"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
@@ -37,8 +38,8 @@ FormulationCase default_formulation(Motion motion) {
   c.motion = motion;
   if (motion == Motion::consistent) {
     c.bulk_viscosity = 0.06;
-    c.zero_energy_control = 0.05;
-    c.refresh_strain = 0.05;
+    c.zero_energy_control = 0.3;  // both by the map cases/stability/refresh_zero_energy.toml
+    c.refresh_strain = 0.02;
   } else {
     c.artificial_viscosity_alpha = 0.1;
   }
@@ -122,7 +123,8 @@ void declare(Fields& f, SoilCase& c) {
 
 void declare(Fields& f, WaterCase& c) {
   f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0, heaviest));
-  double level = level_everywhere(c) ? c.stretches[0].level : never;
+  const bool moves = !c.level_over_time.empty();
+  double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
   f.number(Key("level", "m", "y of the free surface, the same everywhere.").otherwise("see `stretches`"),
            level, between(-farthest, farthest));
@@ -130,9 +132,14 @@ void declare(Fields& f, WaterCase& c) {
                "A stretch of the free surface, in place of one `level`; soil outside all stretches "
                "is dry."),
            stretches);
-  if ((level < never) == !stretches.empty())
-    f.reject("", stretches.empty() ? "needs either 'level' or 'stretches'"
-                                   : "cannot have both 'level' and 'stretches'");
+  f.pairs(Key("level_over_time", "s, m",
+              "A free surface that rises and falls, in place of one `level`: its y over time, linear between "
+              "these times and constant before and after. Soil keeps the weight that it has at the start.")
+              .otherwise("see `level`"),
+          c.level_over_time);
+  if ((level < never) + !stretches.empty() + !c.level_over_time.empty() != 1)
+    f.reject("", "needs one of 'level', 'stretches' and 'level_over_time'");
+  if (!c.level_over_time.empty()) level = level_at(c, 0);
   c.stretches = level < never ? std::vector<WaterStretch>{{-never, never, level}} : std::move(stretches);
 }
 
@@ -184,6 +191,11 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
+  f.number(key_of_consistent("zero_energy_stiffness",
+                             "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
+                             "u, u the displacement since kernel gradients were made; 0: viscous only.")
+               .otherwise(fmt::to_string(usual.zero_energy_stiffness)),
+           c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are made anew; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),
@@ -201,12 +213,21 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.k0_stress, "k0_stress = true")
                .otherwise("nu / (1 - nu) of each soil"),
            c.k0, between(0, 10));
-  f.number(Key("damping", "", "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off."),
-           c.damping, between(0, 1));
+  f.number_or(
+      Key("damping", "",
+          "xi of eq. (34): the damping force per mass and velocity is xi / dt; 0: off. `adaptive`: critical "
+          "for the lowest vibration that the motion contains, to come to rest soonest."),
+      c.damping, between(0, 1), "adaptive", c.adaptive_damping);
   f.number(Key("damping_until", "s", "When the damping ends.")
-               .only_if(c.damping > 0, "damping > 0")
+               .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
+  f.integer(
+      Key("coarse_starts", "",
+          "Start from the displacements at rest of a run with twice the spacing, which itself starts from "
+          "one with twice its spacing, so many times.")
+          .only_if(c.gravity_applied && !c.k0_stress, "k0_stress = false"),
+      c.coarse_starts, between(0, 5));
 }
 
 void declare(Fields& f, TimeCase& c) {

@@ -69,6 +69,8 @@ class Fields {
   virtual ~Fields() = default;
   virtual void number(const Key&, double&, const Range& = {}) = 0;
   virtual void numbers(const Key&, std::vector<double>&, const Range&) = 0;  ///< each in the range
+  /// A number, or one word in its place.
+  virtual void number_or(const Key&, double&, const Range&, std::string_view word, bool& is_word) = 0;
   virtual void integer(const Key&, int&, const Range&) = 0;
   virtual void flag(const Key&, bool&) = 0;
   virtual void text(const Key&, std::string&) = 0;
@@ -76,6 +78,7 @@ class Fields {
                     std::string&) = 0;  ///< letters, digits, '_' and '-': fit for paths and column heads
   virtual void words(const Key&, std::vector<std::string>&, std::span<const std::string> allowed) = 0;
   virtual void point(const Key&, Point&) = 0;
+  virtual void pairs(const Key&, std::vector<Point>&) = 0;  ///< [a, b], a increasing; may be left out
   virtual void polygon(const Key&, Polygon&) = 0;
   virtual void polygons(const Key&, std::vector<Polygon>&) = 0;
 

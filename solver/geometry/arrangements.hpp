@@ -28,4 +28,10 @@ std::vector<CellSite> arrange_fitted(const Grid& grid, const std::vector<Region>
 std::vector<CellSite> arrange_disordered(const Grid& grid, const std::vector<Region>& regions,
                                          double disorder, int seed);
 
+/// Cells with their middle on the free surfaces that lie along the axes, and with their ends at walls and
+/// borders of soils (bands_along). Sites are in the middle of cells, fill is the part of the cell that is
+/// soil. Where slopes cut the cells, sites and areas are those of the pieces, as with arrange_fitted. The
+/// cell of a site counts over these rows and columns.
+std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions);
+
 }  // namespace porosph

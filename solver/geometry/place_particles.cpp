@@ -43,14 +43,17 @@ void check_filled(const Case& scene, const std::vector<CellSite>& sites) {
                       scene.soils[soil].name, scene.particles.spacing));
 }
 
-std::vector<CellSite> arrange(const ParticlesCase& particles, const Grid& grid,
-                              const std::vector<Region>& regions) {
+std::vector<CellSite> arrange(const Case& scene, const std::vector<Region>& regions) {
+  const ParticlesCase& particles = scene.particles;
+  if (particles.arrangement == Arrangement::surface) return arrange_surface(scene, regions);
+  const Grid grid = cover(regions, particles.spacing);
   switch (particles.arrangement) {
     case Arrangement::fitted:
       return arrange_fitted(grid, regions);
     case Arrangement::disordered:
       return arrange_disordered(grid, regions, particles.disorder, particles.seed);
     case Arrangement::lattice:
+    case Arrangement::surface:
       break;
   }
   return arrange_lattice(grid, regions);
@@ -62,9 +65,7 @@ std::vector<Site> place_particles(const Case& scene) {
   const std::vector<Region> regions = regions_of(scene.soils);
   if (regions.empty()) throw std::runtime_error("the case has no soil");
   check_apart(scene.soils, regions);
-  const Grid grid = cover(regions, scene.particles.spacing);
-
-  std::vector<CellSite> sites = arrange(scene.particles, grid, regions);
+  std::vector<CellSite> sites = arrange(scene, regions);
   std::ranges::stable_sort(sites, {}, &CellSite::cell);
   check_filled(scene, sites);
 

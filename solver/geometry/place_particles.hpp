@@ -12,6 +12,7 @@ struct Site {
   Point position = Point::Zero();  ///< [m]
   double area = 0;                 ///< volume per unit thickness [m2]
   int soil = 0;                    ///< index into Case::soils
+  double fill = 1;                 ///< part of its cell that is soil: about 1/2 on a free surface
 };
 
 /// Fills the soils' polygons with particles, as Case::particles asks (see Arrangement). The same case gives

@@ -12,17 +12,23 @@
 namespace porosph {
 namespace {
 
+/// Of a site that the water level may pass through, as if it were a square [N/m3].
+double unit_weight(const SoilCase& soil, const Water& water, const Site& site) {
+  const double depth = water.depth(site.position.x(), site.position.y());
+  const double wet = std::clamp(0.5 + depth / std::sqrt(site.area), 0.0, 1.0);
+  return wet * soil.unit_weight_saturated + (1 - wet) * soil.unit_weight_unsaturated;
+}
+
 Particles make_particles(const Case& scene, const Water& water, const std::vector<Site>& sites) {
   Particles p;
   for (const Site& site : sites) {
     const SoilCase& soil = scene.soils[site.soil];
-    const bool wet = water.present() && water.depth(site.position.x(), site.position.y()) > 0;
-    const double density =
-        (wet ? soil.unit_weight_saturated : soil.unit_weight_unsaturated) / scene.loading.gravity;
+    const double density = unit_weight(soil, water, site) / scene.loading.gravity;
     p.position.push_back(site.position);
     p.velocity.push_back(initial_velocity(soil, density, site.position));
     p.density.push_back(density);
     p.mass.push_back(density * site.area);
+    p.fill.push_back(site.fill);
     p.soil.push_back(site.soil);
     p.id.push_back(static_cast<std::int32_t>(p.id.size()));
     p.pore_pressure.push_back(water.pore_pressure(site.position.x(), site.position.y()));

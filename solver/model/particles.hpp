@@ -16,6 +16,7 @@ struct Particles {
   std::vector<double> pore_pressure;     ///< p_w <= 0 [Pa]
   std::vector<double> density;           ///< [kg/m3]
   std::vector<double> mass;              ///< per metre of thickness [kg/m]
+  std::vector<double> fill;              ///< part of its cell that is soil: about 1/2 on a free surface
   std::vector<std::int32_t> soil;        ///< index into the model's soils
   std::vector<std::int32_t> id;          ///< number in the arrangement's order
 

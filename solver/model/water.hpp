@@ -8,14 +8,37 @@
 
 namespace porosph {
 
+/// Level of water that moves, at a time [s]: y [m].
+inline double level_at(const WaterCase& water, double time) {
+  const auto& steps = water.level_over_time;
+  const auto next = std::find_if(steps.begin(), steps.end(), [&](const Point& p) { return p.x() > time; });
+  if (next == steps.begin()) return next->y();
+  const Point before = *(next - 1);
+  if (next == steps.end()) return before.y();
+  return before.y() + (next->y() - before.y()) * (time - before.x()) / (next->x() - before.x());
+}
+
+/// The water as it stands at a time [s].
+inline WaterCase at_rest_from(WaterCase water, double time) {
+  if (water.level_over_time.empty()) return water;
+  water.stretches = {{-never, never, level_at(water, time)}};
+  water.level_over_time.clear();
+  return water;
+}
+
 /// Hydrostatic water, level per stretch of x.
 class Water {
  public:
   Water() = default;
-  explicit Water(const WaterCase& water) : unit_weight_(water.unit_weight), stretches_(water.stretches) {}
+  explicit Water(const WaterCase& water) : water_(water), stretches_(water.stretches) {}
+
+  /// Moves the level to where it is at this time [s].
+  void set_time(double time) {
+    if (!water_.level_over_time.empty()) stretches_[0].level = level_at(water_, time);
+  }
 
   bool present() const { return !stretches_.empty(); }
-  double unit_weight() const { return unit_weight_; }  ///< gamma_w [N/m3]
+  double unit_weight() const { return water_.unit_weight; }  ///< gamma_w [N/m3]
 
   /// Height of the water level at x above y; negative or -never where the point is dry [m].
   double depth(double x, double y) const {
@@ -25,14 +48,14 @@ class Water {
   }
 
   /// p_w, negative in compression, zero above the level (eq. 12) [Pa].
-  double pore_pressure(double x, double y) const { return -unit_weight_ * std::max(0.0, depth(x, y)); }
+  double pore_pressure(double x, double y) const { return -water_.unit_weight * std::max(0.0, depth(x, y)); }
 
   /// p_w of particles first to last - 1, where they are now.
   void pore_pressures(Particles& p, std::size_t first, std::size_t last) const {
     const bool everywhere =
         stretches_.size() == 1 && stretches_[0].x_from == -never && stretches_[0].x_to == never;
     if (everywhere) {
-      const double level = stretches_[0].level, gamma = unit_weight_;
+      const double level = stretches_[0].level, gamma = water_.unit_weight;
       const double* x = p.position.data()->data();
       double* pressure = p.pore_pressure.data();
 #pragma omp simd
@@ -53,7 +76,7 @@ class Water {
   }
 
  private:
-  double unit_weight_ = 0;
+  WaterCase water_;
   std::vector<WaterStretch> stretches_;
 };
 

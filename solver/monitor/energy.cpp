@@ -11,17 +11,19 @@ double kinetic_energy(const Particles& p, std::span<const Vec2> velocity) {
   return sum;
 }
 
+double elastic_energy(const Model& model, std::size_t i) {
+  const Stress& s = model.particles.stress[i];
+  const LinearElastic& soil = model.soils[model.particles.soil[i]];
+  const double mean = s.mean();
+  const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
+  const double deviatoric = xx * xx + yy * yy + zz * zz + 2 * s.xy * s.xy;
+  return model.particles.volume(i) *
+         (deviatoric / (4 * soil.shear_modulus) + mean * mean / (2 * soil.bulk_modulus));
+}
+
 double elastic_energy(const Model& model) {
-  const Particles& p = model.particles;
   double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Stress& s = p.stress[i];
-    const LinearElastic& soil = model.soils[p.soil[i]];
-    const double mean = s.mean();
-    const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
-    const double deviatoric = xx * xx + yy * yy + zz * zz + 2 * s.xy * s.xy;
-    sum += p.volume(i) * (deviatoric / (4 * soil.shear_modulus) + mean * mean / (2 * soil.bulk_modulus));
-  }
+  for (std::size_t i = 0; i < model.particles.size(); ++i) sum += elastic_energy(model, i);
   return sum;
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "solver/monitor/energy.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 
 namespace porosph {
@@ -16,23 +18,41 @@ std::string name_of(const Particles& p, std::size_t i) {
                      p.start[i].y());
 }
 
+std::string place(const Vec2& x) { return fmt::format("({:.4g}, {:.4g}) m", x.x(), x.y()); }
+
 bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); }
 
 }  // namespace
 
-std::optional<std::string> find_runaway(const Model& model, double time) {
+std::string_view cause_name(Cause cause) {
+  static constexpr std::array<std::string_view, 5> names = {"not finite", "too fast", "inverted",
+                                                            "energy gain", "separated"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+std::optional<Breakdown> find_runaway(const Model& model, double time) {
   const Particles& p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!p.velocity[i].allFinite() || !p.position[i].allFinite() || !finite(p.stress[i]))
-      return fmt::format(
-          "at {:.6g} s {} is no longer finite; the usual cause is a time step that is too large "
-          "(time.courant)",
-          time, name_of(p, i));
+    if (!p.velocity[i].allFinite() || !p.position[i].allFinite() || !finite(p.stress[i]) ||
+        !std::isfinite(p.density[i]))
+      return Breakdown{Cause::not_finite, time,
+                       fmt::format("at {:.6g} s {} is no longer finite; the usual cause is a time step that "
+                                   "is too large (time.courant)",
+                                   time, name_of(p, i))};
+    if (!(p.density[i] > 0))
+      return Breakdown{Cause::inverted, time,
+                       fmt::format("at {:.6g} s the soil around {} is turned inside out (its volume is not "
+                                   "positive), at {}; the usual causes are a load that is too large for "
+                                   "the soil's stiffness (youngs_modulus) and a time step that is too "
+                                   "large (time.courant)",
+                                   time, name_of(p, i), place(p.position[i]))};
     if (p.velocity[i].norm() > model.wave_speed)
-      return fmt::format(
-          "at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); the usual "
-          "cause is a time step that is too large (time.courant), or soil that pulls itself apart",
-          time, name_of(p, i), p.velocity[i].norm(), model.wave_speed);
+      return Breakdown{
+          Cause::too_fast, time,
+          fmt::format("at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); "
+                      "the usual cause is a time step that is too large (time.courant), or soil that pulls "
+                      "itself apart",
+                      time, name_of(p, i), p.velocity[i].norm(), model.wave_speed)};
   }
   return std::nullopt;
 }
@@ -60,7 +80,7 @@ Bodies find_bodies(std::span<const Vec2> positions, double support) {
   return bodies;
 }
 
-std::optional<std::string> find_separation(const Model& model, std::int64_t bodies_at_start, double time) {
+std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies_at_start, double time) {
   const Particles& p = model.particles;
   const Bodies bodies = find_bodies(p.position, 2 * model.smoothing_length);
   if (bodies.count <= bodies_at_start) return std::nullopt;
@@ -72,11 +92,52 @@ std::optional<std::string> find_separation(const Model& model, std::int64_t bodi
   const std::int32_t thrown = order[bodies_at_start];
   const auto first = static_cast<std::size_t>(std::find(bodies.body.begin(), bodies.body.end(), thrown) -
                                               bodies.body.begin());
-  return fmt::format(
-      "at {:.6g} s {} and {} more have left the soil body, at ({:.4g}, {:.4g}) m; with water above the "
-      "ground "
-      "the usual cause is the conventional formulation (formulation.motion)",
-      time, name_of(p, first), size[thrown] - 1, p.position[first].x(), p.position[first].y());
+  return Breakdown{
+      Cause::separated, time,
+      fmt::format(
+          "at {:.6g} s {} and {} more have left the soil body, at {}; the usual causes are, with water "
+          "above the ground, the conventional formulation (formulation.motion), else a time step that "
+          "is too large (time.courant)",
+          time, name_of(p, first), size[thrown] - 1, place(p.position[first]))};
+}
+
+double closest_distance(std::span<const Vec2> positions, double radius) {
+  const NeighbourList near = find_neighbours(positions, positions.size(), radius);
+  double closest = radius;
+  for (std::size_t a = 0; a < positions.size(); ++a)
+    for (std::int32_t b : near.of(a)) closest = std::min(closest, (positions[a] - positions[b]).norm());
+  return closest;
+}
+
+std::optional<Breakdown> find_crossing(const Model& model, double allowed, double time) {
+  const Particles& p = model.particles;
+  const NeighbourList near = find_neighbours(p.position, p.size(), allowed);
+  for (std::size_t a = 0; a < p.size(); ++a)
+    for (std::int32_t b : near.of(a))
+      return Breakdown{
+          Cause::inverted, time,
+          fmt::format("at {:.6g} s {} and particle {} met at {}: the soil between them is turned "
+                      "inside out; the usual causes are a load that is too large for the soil's "
+                      "stiffness (youngs_modulus) and a time step that is too large "
+                      "(time.courant)",
+                      time, name_of(p, a), p.id[b], place(p.position[a]))};
+  return std::nullopt;
+}
+
+Breakdown energy_gain(const Model& model, std::span<const Vec2> velocities, double gained, double time) {
+  const Particles& p = model.particles;
+  std::size_t most = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double energy = 0.5 * p.mass[i] * velocities[i].squaredNorm() + elastic_energy(model, i);
+    if (energy > largest) largest = energy, most = i;
+  }
+  return {Cause::energy_gain, time,
+          fmt::format("at {:.6g} s {:.0f} % of the energy in motion and strain came from nowhere, most of it "
+                      "at {}, now at {}; the usual causes are a time step that is too large (time.courant) "
+                      "and a form of the paper without viscosity or damping "
+                      "(formulation.artificial_viscosity_alpha, loading.damping)",
+                      time, 100 * gained, name_of(p, most), place(p.position[most]))};
 }
 
 }  // namespace porosph

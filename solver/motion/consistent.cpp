@@ -18,12 +18,11 @@ void resize(PlaneTensors& t, std::size_t size) {
   for (auto& component : t) component.resize(size);
 }
 
-double largest_rho_c(const Model& model) {
-  double largest = 0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    largest = std::max(largest, std::sqrt(model.soils[model.particles.soil[i]].constrained_modulus() *
-                                          model.particles.density[i]));
-  return largest;
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too
+/// far in a step, and of the fastest wave, which sets the step.
+double controlled_rho_c(const Model& model) {
+  const auto& density = model.particles.density;
+  return *std::min_element(density.begin(), density.end()) * model.wave_speed;
 }
 
 }  // namespace
@@ -33,8 +32,9 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       formulation_(formulation),
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
-      zero_energy_viscosity_(formulation.zero_energy_control * largest_rho_c(model) *
-                             model.smoothing_length) {
+      zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
+                             model.smoothing_length),
+      zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {
   const auto add = [&](const LinearElastic& soil) {
     shear_modulus_.push_back(soil.shear_modulus);
     bulk_modulus_.push_back(soil.bulk_modulus);
@@ -91,7 +91,7 @@ void ConsistentDynamics::make_gradients() {
   const std::size_t n = p.size();
   volume_.resize(points_.size());
   reference_density_ = p.density;
-  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a);
+  for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a) / p.fill[a];
   for (std::size_t i = 0; i < images_.size(); ++i) volume_[n + i] = volume_[images_[i].parent];
   stencils_ = make_pair_stencils(points_, n, volume_, kernel_);
   ++counts.searches;
@@ -181,6 +181,8 @@ void ConsistentDynamics::make_room() {
   wet_ = model_.water.present() ||
          std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(), [](double w) { return w != 0; });
   if (wet_) pressure_.resize(points_.size());
+  if (zero_energy_rate_ != 0)
+    for (auto& m : motion_) m.resize(points_.size());
   records_.assign(points_.size(), Record{});
   piola_.assign(points_.size(), PlaneTensor{});
   image_positions_.resize(images_.size());
@@ -203,6 +205,10 @@ void ConsistentDynamics::connect_arrays() {
   c.one_soil = model_.soils.size() == 1;
   c.wet = wet_;
   c.zero_energy_viscosity = zero_energy_viscosity_;
+  c.zero_energy_rate = zero_energy_rate_;
+  c.fill = p.fill.data();
+  const auto& motion = zero_energy_rate_ != 0 ? motion_ : velocity_;
+  c.motion[0] = motion[0].data(), c.motion[1] = motion[1].data();
   c.bulk_length = formulation_.bulk_viscosity * model_.smoothing_length;
   c.gravity[0] = model_.gravity.x(), c.gravity[1] = model_.gravity.y();
   data(deformation_, c.deformation);
@@ -262,6 +268,31 @@ void ConsistentDynamics::update_velocities() {
     const std::int32_t parent = images_[i].parent;
     const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(vx[parent], vy[parent]);
     vx[n + i] = mirrored.x(), vy[n + i] = mirrored.y();
+    record(n + i);
+  }
+}
+
+/// v + rate * displacement, which the zero-energy control acts on. Takes the velocities' place in the records
+/// until the next step, when all have been strained.
+void ConsistentDynamics::update_motion() {
+  if (zero_energy_rate_ == 0) return;
+  const Particles& p = model_.particles;
+  const std::size_t n = p.size();
+  double *mx = motion_[0].data(), *my = motion_[1].data();
+  const auto record = [&](std::size_t i) {
+    if (listed_[i]) records_[i].q[velocity_lane] = mx[i], records_[i].q[velocity_lane + 1] = my[i];
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    const Vec2 since = p.position[a] - points_[a];
+    mx[a] = velocity_[0][a] + zero_energy_rate_ * since.x();
+    my[a] = velocity_[1][a] + zero_energy_rate_ * since.y();
+    record(a);
+  }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const std::int32_t parent = images_[i].parent;
+    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(mx[parent], my[parent]);
+    mx[n + i] = mirrored.x(), my[n + i] = mirrored.y();
     record(n + i);
   }
 }
@@ -333,8 +364,10 @@ void ConsistentDynamics::update_image_fluxes() {
   for (std::size_t i = 0; i < images_.size(); ++i) {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
     const Reflection& wall = reflection_[images_[i].wall];
-    const Mat2 viscous = get(flux_, parent) - matrix(piola_[parent]) * correction(parent);
-    const Mat2 flux = matrix(piola_[n + i]) * correction(n + i) + wall.velocity * viscous * wall.stress;
+    const double fill = model_.particles.fill[root_[i]];
+    const Mat2 control = get(flux_, parent) - fill * matrix(piola_[parent]) * correction(parent);
+    const Mat2 flux =
+        fill * matrix(piola_[n + i]) * correction(n + i) + wall.velocity * control * wall.stress;
     set(flux_, n + i, flux);
     if (!listed_[n + i]) continue;
     Lanes& q = records_[n + i].q;
@@ -344,6 +377,7 @@ void ConsistentDynamics::update_image_fluxes() {
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
   update_pressures();
+  update_motion();
   update_image_fluxes();
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < stencils_.tiles(); ++tile)

@@ -51,6 +51,7 @@ class ConsistentDynamics final : public Dynamics {
 
   LargestChange strain_all(double dt);
   void update_velocities();
+  void update_motion();
   void update_pressures();
   void update_image_fluxes();
   void update_flux_records();
@@ -68,7 +69,8 @@ class ConsistentDynamics final : public Dynamics {
   FormulationCase formulation_;
   CubicSpline<2> kernel_;
   const ConsistentKernels& kernels_;
-  double zero_energy_viscosity_;                                   ///< mu = kappa rho c_p h [Pa s]
+  double zero_energy_viscosity_;  ///< mu = kappa rho c_p h [Pa s]
+  double zero_energy_rate_;       ///< the control acts on v + rate * displacement since the reference [1/s]
   std::vector<double> shear_modulus_, bulk_modulus_, no_tension_;  ///< per particle; one entry in one soil
   struct Reflection {
     Mat2 stress;    ///< R
@@ -96,10 +98,12 @@ class ConsistentDynamics final : public Dynamics {
   std::vector<std::uint8_t> mirrored_;      ///< of particles: images ask for its stress
 
   // The state since then.
-  PlaneTensors deformation_;                     ///< F
-  PlaneTensors flux_;                            ///< P L - mu dF/dt, of particles and images [Pa]
+  PlaneTensors deformation_;  ///< F
+  /// fill P L - mu (dF/dt + rate (F - I)), of particles and images [Pa]
+  PlaneTensors flux_;
   std::vector<double> pressure_;                 ///< p_w, of particles and images [Pa]
   std::array<std::vector<double>, 2> velocity_;  ///< of particles and images [m/s]
+  std::array<std::vector<double>, 2> motion_;    ///< v + rate * displacement, likewise, where rate is not 0
   std::vector<Record> records_;                  ///< flux, p_w and velocity of those that are listed
   std::vector<PlaneTensor> piola_;               ///< P of mirrored particles and of images [Pa]
   std::vector<Vec2> image_positions_;            ///< where the images are now [m]

@@ -1,6 +1,7 @@
 // What every form of the motion equation offers to the integrator.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -43,5 +44,8 @@ class Dynamics {
 
 /// The dynamics that the case asks for.
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);
+
+/// What makes the dynamics of a simulation.
+using DynamicsMaker = std::function<std::unique_ptr<Dynamics>(const FormulationCase&, Model&)>;
 
 }  // namespace porosph

@@ -50,7 +50,8 @@ ReferenceColumn reference_column(const Case& scene) {
                 .unit_weight_saturated = soil.unit_weight_saturated,
                 .unit_weight_unsaturated = soil.unit_weight_unsaturated,
                 .unit_weight_water = scene.water.unit_weight};
-  if (scene.water.present()) column.water_level = scene.water.stretches[0].level - ground.bottom;
+  if (scene.water.present())
+    column.water_level = at_rest_from(scene.water, scene.time.end).stretches[0].level - ground.bottom;
   return {column, ground.bottom};
 }
 

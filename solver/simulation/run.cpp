@@ -5,30 +5,35 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/simulation/coarse_start.hpp"
+
 namespace porosph {
 namespace {
 
-constexpr std::int64_t steps_between_balances = 10, steps_between_separation_checks = 200;
+constexpr std::int64_t steps_between_balances = 10, steps_between_energy_checks = 100,
+                       steps_between_searches = 200;
 
 /// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
-/// crosses the body to and fro.
+/// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
 class Equilibrium {
  public:
   explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
     Vec2 low = s.model().particles.start.front(), high = low;
     for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
+    if (!s.scene().water.level_over_time.empty()) water_rests_ = s.scene().water.level_over_time.back().x();
   }
 
   /// Keeps the last time out of balance in `unbalanced_at` [s].
   bool reached(Simulation& s, double& unbalanced_at) const {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
     if (s.unbalanced_force_ratio() >= limit_) unbalanced_at = s.time();
-    return s.time() - unbalanced_at >= needed_;
+    const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
+    return s.time() - std::max(unbalanced_at, water_rests_) >= (c > 0 ? std::min(needed_, 4 / c) : needed_);
   }
 
  private:
-  double limit_, needed_ = 0;
+  double limit_, needed_ = 0, water_rests_ = 0;
 };
 
 std::vector<double> history_row(const Simulation& s) {
@@ -45,6 +50,37 @@ double energy_growth(const Simulation::Energy& now, double at_start) {
   const double at_work = now.kinetic + now.elastic;
   return at_work > 0 ? (now.total() - at_start) / at_work : 0;
 }
+
+/// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
+/// level that moves: there energy tells nothing.
+bool keeps_energy(const Case& scene) {
+  return scene.water.level_over_time.empty() &&
+         !(scene.water.present() && scene.formulation.motion == Motion::conventional);
+}
+
+/// Breakdown that does not show in a single step.
+class Guard {
+ public:
+  Guard(Simulation& s, double energy_at_start)
+      : energy_at_start_(energy_at_start), watches_energy_(keeps_energy(s.scene())) {}
+
+  void look(Simulation& s) {
+    if (s.instability() || s.step() % steps_between_energy_checks != 0) return;
+    if (s.step() % steps_between_searches == 0) s.look_for_breakdown();
+    if (!s.instability() && watches_energy_) weigh_energy(s);
+    if (!s.instability()) s.remember();
+  }
+
+ private:
+  void weigh_energy(Simulation& s) {
+    constexpr double tolerable = 0.5;
+    const double gained = energy_growth(s.energy(), energy_at_start_);
+    if (!(gained <= tolerable)) s.stop(energy_gain(s.model(), s.velocities(), gained, s.time()));
+  }
+
+  double energy_at_start_;
+  bool watches_energy_;
+};
 
 }  // namespace
 
@@ -97,18 +133,24 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   };
 
   if (!progress.has_begun()) {
+    if (s.scene().loading.coarse_starts > 0) {
+      const auto before = Clock::now();
+      start_from_coarse(s);
+      progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    }
     progress.energy_at_start = s.energy().total();
     record(true, true);
   }
+  Guard guard(s, progress.energy_at_start);
   while (s.step() < s.last_step()) {
     const auto before = Clock::now();
     s.advance();
-    if (s.step() % steps_between_separation_checks == 0) s.look_for_separation();
+    guard.look(s);
     const bool settled = !s.instability() && equilibrium.reached(s, progress.unbalanced_at);
     progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
       outcome.status = RunStatus::unstable;
-      outcome.message = *s.instability();
+      outcome.message = s.instability()->message;
       break;
     }
     record(frames.due(s.step()), rows.due(s.step()));
@@ -127,7 +169,12 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   }
   outcome.stepping_seconds = progress.stepping_seconds;
   const bool showable = outcome.status != RunStatus::unstable || s.showable();
-  if (showable) record(true, true);
+  if (showable)
+    record(true, true);
+  else if (s.exchange_with_last_good()) {
+    record(progress.framed < s.step(), false);
+    s.exchange_with_last_good();
+  }
   outcome.energy_growth = showable ? energy_growth(s.energy(), progress.energy_at_start) : std::nan("");
   return outcome;
 }

@@ -53,7 +53,8 @@ struct RunOutcome {
 };
 
 /// Advances to the end, from the start or from where a restored `progress` left off. The last frame and
-/// history row are of the state at which the run ended; a state that has broken down is not shown.
+/// history row are of the state at which the run ended; in place of a state that has broken down the last
+/// frame is of the last good one, 100 to 200 steps before.
 RunOutcome run(Simulation& simulation, const RunWatch& watch, RunProgress progress = {});
 
 /// "time", then "<probe>.<quantity>".

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "solver/monitor/energy.hpp"
-#include "solver/monitor/instability.hpp"
 #include "solver/parallel.hpp"
 #include "solver/simulation/leapfrog.hpp"
 
@@ -21,11 +20,12 @@ double time_step(const Case& scene, const Model& model) {
 namespace {
 
 /// Kicks and moves particles first to last - 1; returns how many of them are faster than `limit`, the square
-/// of a speed, or not finite. One loop over plain numbers, so that it becomes vector code.
+/// of a speed, or not finite, or turned inside out. One loop over plain numbers, so that it becomes vector
+/// code.
 std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, double dt, double limit,
                             Particles& p, const std::vector<Vec2>& accelerations) {
   double *v = p.velocity.data()->data(), *x = p.position.data()->data();
-  const double* a = accelerations.data()->data();
+  const double *a = accelerations.data()->data(), *density = p.density.data();
   std::int64_t runaways = 0;
 #pragma omp simd reduction(+ : runaways)
   for (std::size_t i = first; i < last; ++i) {
@@ -33,21 +33,22 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
     const double vy = kick.keep * v[2 * i + 1] + kick.gain * a[2 * i + 1];
     v[2 * i] = vx, v[2 * i + 1] = vy;
     x[2 * i] += dt * vx, x[2 * i + 1] += dt * vy;
-    runaways += vx * vx + vy * vy < limit ? 0 : 1;
+    runaways += vx * vx + vy * vy < limit && density[i] > 0 ? 0 : 1;
   }
   return runaways;
 }
 
 }  // namespace
 
-Simulation::Simulation(const Case& scene)
+Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
-      dynamics_(make_dynamics(scene.formulation, model_)),
+      dynamics_(dynamics(scene.formulation, model_)),
       dt_(porosph::time_step(scene, model_)),
       last_step_(std::llround(scene.time.end / dt_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
+  closest_at_start_ = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
 }
@@ -63,7 +64,9 @@ void Simulation::set_material(const std::string& soil, std::shared_ptr<Material>
 }
 
 double Simulation::damping() const {
-  return time() < scene_.loading.damping_until ? scene_.loading.damping / dt_ : 0;
+  const LoadingCase& loading = scene_.loading;
+  if (time() >= loading.damping_until) return 0;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / dt_;
 }
 
 std::span<const Vec2> Simulation::accelerations() {
@@ -87,12 +90,32 @@ std::vector<Vec2> Simulation::velocities() {
 void Simulation::advance() {
   if (instability_) return;
   accelerations();
+  const bool measure = scene_.loading.adaptive_damping && step_ % Relaxation::steps_between == 0;
+  if (measure) before_ = accelerations_;
   drift();
   accelerations_valid_ = false;
   ++step_;
   if (instability_) return;
   if (!materials_.empty()) apply_materials(materials_, model_, *dynamics_, dt_);
   dynamics_->strain(dt_);
+  if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
+}
+
+void Simulation::displace(std::span<const Vec2> displacement, int steps) {
+  Particles& p = model_.particles;
+  for (int k = 0; k < steps; ++k) {
+    dynamics_->prepare();
+    for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = displacement[i] / (steps * dt_);
+    for (std::size_t i = 0; i < p.size(); ++i) p.position[i] += dt_ * p.velocity[i];
+    dynamics_->strain(dt_);
+  }
+  if (model_.water.present())
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.pore_pressure[i] = model_.water.pore_pressure(p.position[i].x(), p.position[i].y());
+  for (Vec2& v : p.velocity) v.setZero();
+  dynamics_->prepare();
+  dynamics_->strain(0);
+  accelerations_valid_ = false;
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
@@ -100,6 +123,8 @@ void Simulation::drift() {
   Particles& p = model_.particles;
   const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
   const bool wet = model_.water.present();
+  const double then = static_cast<double>(step_ + 1) * dt_;
+  model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
   std::int64_t runaways = 0;
 #pragma omp parallel reduction(+ : runaways)
@@ -109,7 +134,7 @@ void Simulation::drift() {
     if (wet) model_.water.pore_pressures(p, first, last);
   }
   runaway_ = runaways > 0;
-  if (runaway_) instability_ = find_runaway(model_, time() + dt_);
+  if (runaway_) name_breakdown(then);
 }
 
 void Simulation::visit(StateArchive& state) {
@@ -125,16 +150,48 @@ void Simulation::visit(StateArchive& state) {
   state.array("stress", p.stress);
   state.array("pore_pressure", p.pore_pressure);
   state.array("density", p.density);
+  state.value("relaxation_stiffness", relaxation_.stiffness);
+  state.value("relaxation_inertia", relaxation_.inertia);
+  state.value("relaxation_damping", relaxation_.damping);
   dynamics_->visit(state);
   if (!state.restoring()) return;
+  model_.water.set_time(time());
   accelerations_valid_ = false;
   if (prepared) accelerations();
   counts = counts_then;
 }
 
-void Simulation::look_for_separation() {
+/// What the conventional form throws off is fast in the end, but that it left is what went wrong first.
+void Simulation::name_breakdown(double time) {
+  instability_ = find_runaway(model_, time);
+  const bool throws_off = scene_.formulation.motion == Motion::conventional && scene_.stop.on_separation;
+  if (!throws_off || instability_->cause != Cause::too_fast) return;
+  for (const Vec2& x : model_.particles.position)
+    if (!x.allFinite()) return;
+  if (auto separation = find_separation(model_, bodies_at_start_, time)) instability_ = std::move(separation);
+}
+
+void Simulation::look_for_breakdown() {
+  constexpr double met = 0.25;  // of the smallest distance at the start
+  if (!instability_) instability_ = find_crossing(model_, met * closest_at_start_, time());
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, bodies_at_start_, time());
+}
+
+void Simulation::remember() {
+  good_before_ = std::move(good_);
+  const auto a = accelerations();
+  good_ = State{model_.particles, {a.begin(), a.end()}, step_};
+}
+
+bool Simulation::exchange_with_last_good() {
+  std::optional<State>& good = good_before_ ? good_before_ : good_;
+  if (!good) return false;
+  std::swap(model_.particles, good->particles);
+  std::swap(accelerations_, good->accelerations);
+  std::swap(step_, good->step);
+  accelerations_valid_ = true;
+  return true;
 }
 
 double Simulation::unbalanced_force_ratio() {

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/monitor/instability.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/simulation/apply_materials.hpp"
 #include "solver/simulation/probe.hpp"
+#include "solver/simulation/relaxation.hpp"
 
 namespace porosph {
 
@@ -17,7 +19,8 @@ namespace porosph {
 class Simulation {
  public:
   /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
-  explicit Simulation(const Case& scene);
+  /// `dynamics`: another implementation than the case's own, to be compared with it.
+  explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
 
   /// Gives a soil a material other than linear elastic. Throws std::invalid_argument where no soil has that
   /// name or it is one without tension.
@@ -50,19 +53,33 @@ class Simulation {
   Energy energy();
 
   /// What went wrong, where, and what usually causes it; empty while all is well.
-  const std::optional<std::string>& instability() const { return instability_; }
+  const std::optional<Breakdown>& instability() const { return instability_; }
   /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
   bool showable() const { return !runaway_; }
-  /// Looks for particles that have left the body (costs a neighbour search).
-  void look_for_separation();
+  /// Looks for particles that have met or left the body (costs a neighbour search).
+  void look_for_breakdown();
+  /// Ends the simulation for a reason that the caller found.
+  void stop(Breakdown reason) { instability_ = std::move(reason); }
+
+  /// Keeps a copy of the present state as a good one. The last two are kept, as the last may have been good
+  /// only in appearance.
+  void remember();
+  /// Puts the older of the remembered states in the place of the present one, and the present one in its
+  /// place; to be looked at only, not to go on from. Returns false where none is remembered.
+  bool exchange_with_last_good();
 
   /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
   /// restored into goes on to the same bits. Throws StateError.
   void visit(StateArchive& state);
+  double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
+
+  /// Moves the particles by these displacements [m], all at once but in so many steps of strain, and leaves
+  /// them at rest. Time does not go on.
+  void displace(std::span<const Vec2> displacement, int steps);
 
  private:
-  double damping() const;  ///< c_d of eq. (34) [1/s]
   void drift();
+  void name_breakdown(double time);
 
   Case scene_;
   Model model_;
@@ -72,10 +89,20 @@ class Simulation {
   double dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;
+  std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
+  Relaxation relaxation_;     ///< unused unless the case's damping is adaptive
   bool accelerations_valid_ = false;
   std::int64_t bodies_at_start_ = 0;
-  std::optional<std::string> instability_;
+  std::optional<Breakdown> instability_;
   bool runaway_ = false;
+
+  struct State {
+    Particles particles;
+    std::vector<Vec2> accelerations;
+    std::int64_t step = 0;
+  };
+  std::optional<State> good_, good_before_;
+  double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
 };
 
 /// Largest stable-by-the-CFL-number time step, rounded down so that whole steps reach the end time [s].

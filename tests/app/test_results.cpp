@@ -151,6 +151,25 @@ TEST_CASE("the report is a page of escaped text whose pictures are all there") {
   CHECK(images == 8);
 }
 
+TEST_CASE("the report shows studies as sections") {
+  const Workplace& place = computed();
+  fs::create_directories(place.folder() / "study");
+  place.write("study/study.json", R"({"title": "Speed", "lead": "", "files": [], "command": "porosph bench",
+    "sections": [{"heading": "All", "paragraphs": ["fast"], "tables": [],
+                  "pictures": [{"file": "a.png", "description": "", "caption": "A"}]}]})");
+  const Outcome missing = place.porosph("report consistent study --out with_study");
+  CHECK(missing.status == 4);
+  CHECK_THAT(missing.err, Contains("study/a.png"));
+  place.write("study/a.png", "a picture");
+  REQUIRE(place.porosph("report consistent study --out with_study").status == 0);
+  CHECK_THAT(text_of(place.folder() / "with_study/index.html"),
+             Contains("<h2>Speed</h2>") && Contains("study_1_a.png"));
+  CHECK(json_of(place.folder() / "with_study/report.json")["studies"][0]["title"] == "Speed");
+  const Outcome alone = place.porosph("report study --out no");
+  CHECK(alone.status == 2);
+  CHECK_THAT(alone.err, Contains("study/index.html"));
+}
+
 TEST_CASE("a failed threshold ends with status 1 and is told") {
   const Workplace& place = computed();
   const std::string path = "errors.EffectiveStress_YY.relative_l2";

@@ -135,13 +135,14 @@ class ConsistentForm {
   }
 
   double zero_energy_viscosity() const {
-    double largest = 0;  // rho c_p
+    double lightest = never, fastest = 0;
     for (std::size_t a = 0; a < start_.particles.size(); ++a) {
       const double rho = start_.particles.density[a];
       const double modulus = start_.soils[start_.particles.soil[a]].constrained_modulus();
-      largest = std::max(largest, rho * std::sqrt(modulus / rho));
+      lightest = std::min(lightest, rho);
+      fastest = std::max(fastest, std::sqrt(modulus / rho));
     }
-    return formulation_.zero_energy_control * largest * reference_.smoothing_length;
+    return formulation_.zero_energy_control * lightest * fastest * reference_.smoothing_length;
   }
 
   Vec2 acceleration(std::size_t a) const {

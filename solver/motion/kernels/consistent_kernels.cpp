@@ -135,7 +135,7 @@ void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
 /// By value: std::max keeps the loop from becoming vector code.
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// F, stress and density after the step, P and the flux P L - mu dF/dt.
+/// F, stress and density after the step, P and the flux fill P L - mu (dF/dt + k (F - I)).
 template <bool one_soil>
 LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, const Row* rate, Row* piola,
                             double dt) {
@@ -152,7 +152,9 @@ LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, co
   const std::int32_t soil = one_soil ? 0 : first;
   const double *shear = c.shear_modulus + soil, *bulk = c.bulk_modulus + soil,
                *no_tension = c.no_tension + soil;
-  const double mu = c.zero_energy_viscosity, bulk_length = c.bulk_length, half = 0.5 * dt;
+  const double* fill = c.fill + first;
+  const double mu = c.zero_energy_viscosity, elastic = c.zero_energy_rate;
+  const double bulk_length = c.bulk_length, half = 0.5 * dt;
   double strain = 0, speed_squared = 0;
 #pragma omp simd reduction(max : strain, speed_squared)
   for (std::int32_t i = 0; i < count; ++i) {
@@ -180,8 +182,12 @@ LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, co
     const double pxx = txx * fyy - s.xy * fxy, pxy = s.xy * fxx - txx * fyx;
     const double pyx = s.xy * fyy - tyy * fxy, pyy = tyy * fxx - s.xy * fyx;
     piola[xx].value[i] = pxx, piola[xy].value[i] = pxy, piola[yx].value[i] = pyx, piola[yy].value[i] = pyy;
-    qxx[i] = pxx * lxx[i] + pxy * lyx[i] - mu * rxx, qxy[i] = pxx * lxy[i] + pxy * lyy[i] - mu * rxy;
-    qyx[i] = pyx * lxx[i] + pyy * lyx[i] - mu * ryx, qyy[i] = pyx * lxy[i] + pyy * lyy[i] - mu * ryy;
+    const double sxx = fill[i] * lxx[i], sxy = fill[i] * lxy[i], syx = fill[i] * lyx[i],
+                 syy = fill[i] * lyy[i];
+    qxx[i] = pxx * sxx + pxy * syx - mu * (rxx + elastic * (fxx - 1));
+    qxy[i] = pxx * sxy + pxy * syy - mu * (rxy + elastic * fxy);
+    qyx[i] = pyx * sxx + pyy * syx - mu * (ryx + elastic * fyx);
+    qyy[i] = pyx * sxy + pyy * syy - mu * (ryy + elastic * (fyy - 1));
     strain = larger(
         strain, larger(larger(std::abs(fxx - 1), std::abs(fyy - 1)), larger(std::abs(fxy), std::abs(fyx))));
     speed_squared = larger(speed_squared, vx[i] * vx[i] + vy[i] * vy[i]);
@@ -219,7 +225,7 @@ void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, st
   const double viscous = 2 * c.zero_energy_viscosity;
   by_vectors(piece, stretch, [&](std::int32_t a) {
     const double *qxx = c.flux[xx] + a, *qxy = c.flux[xy] + a, *qyx = c.flux[yx] + a, *qyy = c.flux[yy] + a;
-    const double *vx = c.velocity[0] + a, *vy = c.velocity[1] + a, *pw = c.pressure + a;
+    const double *vx = c.motion[0] + a, *vy = c.motion[1] + a, *pw = c.pressure + a;
     const PairGeometry own = g[stretch.pairs];
     const double own_w = viscous * own.w;
     Vector fx = load(qxx) * own.x, fx2 = load(qxy) * own.y, fx3 = -own_w * load(vx);
@@ -288,11 +294,13 @@ void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out
   const double *fyx = c.deformation[yx] + first, *fyy = c.deformation[yy] + first;
   const double *lxx = c.correction[xx] + first, *lxy = c.correction[xy] + first;
   const double *lyx = c.correction[yx] + first, *lyy = c.correction[yy] + first;
-  const double *rho = c.reference_density + first, gx = c.gravity[0], gy = c.gravity[1];
+  const double *rho = c.reference_density + first, *fill = c.fill + first;
+  const double gx = c.gravity[0], gy = c.gravity[1];
   double* result = out + 2 * static_cast<std::int64_t>(first);
 #pragma omp simd
   for (std::int32_t i = 0; i < count; ++i) {
-    double fx = sum[force_x].value[i], fy = sum[force_y].value[i];
+    const double per_fill = 1 / fill[i];
+    double fx = per_fill * sum[force_x].value[i], fy = per_fill * sum[force_y].value[i];
     if (wet) {
       const double px = sum[pressure_x].value[i], py = sum[pressure_y].value[i];
       const double x = lxx[i] * px + lxy[i] * py, y = lyx[i] * px + lyy[i] * py;

@@ -16,10 +16,12 @@ struct ConsistentArrays {
 
   const double* correction[4];      ///< L, and image
   const double* reference_density;  ///< [kg/m3]
+  const double* fill;               ///< share of its cell that a particle fills
   const double *shear_modulus, *bulk_modulus,
       *no_tension;  ///< [Pa], [Pa], 1 or 0; one entry only in one soil
   bool one_soil, wet;
   double zero_energy_viscosity;  ///< mu [Pa s]
+  double zero_energy_rate;       ///< k, of the control's elastic part [1/s]
   double bulk_length;            ///< bulk viscosity's strength times h [m]
   double gravity[2];             ///< [m/s2]
 
@@ -27,12 +29,13 @@ struct ConsistentArrays {
   double* stress;          ///< effective, four numbers each: xx, yy, zz, xy [Pa]
   double* density;         ///< [kg/m3]
 
-  double* flux[4];            ///< P L - mu dF/dt, and image [Pa]
+  double* flux[4];            ///< fill P L - mu (dF/dt + k (F - I)), and image [Pa]
   const double* pressure;     ///< p_w, and image [Pa]
   const double* velocity[2];  ///< and image [m/s]
+  const double* motion[2];    ///< v + k * displacement, and image [m/s]
 
   const std::uint8_t* listed;    ///< 1 where an own list names the particle: its record is kept
-  Record* records;               ///< flux, pressure and velocity of those, and image
+  Record* records;               ///< flux, pressure and velocity or motion of those, and image
   const std::uint8_t* mirrored;  ///< 1 where images ask for P
   double* piola;                 ///< P of those, four numbers each, and image [Pa]
 };

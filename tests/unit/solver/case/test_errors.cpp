@@ -98,9 +98,9 @@ TEST_CASE("a wrong key is not blamed on those that depend on it") {
 }
 
 TEST_CASE("water") {
-  CHECK(errors_with("[water]\n") == "box.toml:20:1: key 'water': needs either 'level' or 'stretches'");
+  CHECK(errors_with("[water]\n") == "box.toml:20:1: key 'water': needs one of 'level', 'stretches' and 'level_over_time'");
   CHECK(errors_with("[water]\nlevel = 1\nstretches = [{level = 1}]\n") ==
-        "box.toml:20:1: key 'water': cannot have both 'level' and 'stretches'");
+        "box.toml:20:1: key 'water': needs one of 'level', 'stretches' and 'level_over_time'");
   CHECK(errors_with("[water]\nstretches = [{x_from = 3, x_to = 2, level = 1}]\n") ==
         "box.toml:21:34: key 'water.stretches[0].x_to' = 2: must be > x_from = 3 m");
   CHECK(errors_with("[water]\nstretches = [{x_to = 2, level = 1}, {x_from = 1, level = 1}]\n") ==

@@ -43,7 +43,7 @@ TEST_CASE("errors name the override that brings them") {
       errors("soil.0.youngs_modulus=-3") ==
       "override 'soil.0.youngs_modulus=-3': key 'soil[0].youngs_modulus' = -3: must be > 0 and <= 1e+15 Pa");
   CHECK(errors("water.lvl=3") ==
-        "override 'water.lvl=3': key 'water': needs either 'level' or 'stretches'\n"
+        "override 'water.lvl=3': key 'water': needs one of 'level', 'stretches' and 'level_over_time'\n"
         "override 'water.lvl=3': key 'water.lvl' = 3: is not known; did you mean 'level'?");
   CHECK(
       errors("probe=[{name='C', pos=1}]") ==

@@ -101,14 +101,32 @@ TEST_CASE("what is not given has its default, and stays so when written") {
   CHECK_FALSE(parse_case(write_case(c), "written").water.present());
 }
 
+TEST_CASE("damping is a number or adaptive") {
+  const Case adaptive = parse_case(small_case + "[loading]\ndamping = 'adaptive'\n", "box.toml");
+  CHECK(adaptive.loading.adaptive_damping);
+  CHECK(same(parse_case(write_case(adaptive), "written"), adaptive));
+  CHECK(parse_case(write_case(adaptive), "written").loading.adaptive_damping);
+  CHECK_FALSE(parse_case(write_case(adaptive), "written", {"loading.damping=0.1"}).loading.adaptive_damping);
+  CHECK(parse_case(small_case, "box.toml", {"loading.damping=adaptive"}).loading.adaptive_damping);
+  CHECK(errors_with("[loading]\ndamping = 'adaptiv'\n") ==
+        "box.toml:21:11: key 'loading.damping' = \"adaptiv\": must be a number >= 0 and <= 1 or "
+        "\"adaptive\"; did "
+        "you mean 'adaptive'?");
+  CHECK(errors_with("[loading]\ndamping = true\n") ==
+        "box.toml:21:11: key 'loading.damping' = true: must be a number");
+  CHECK(errors_with("[loading]\ncoarse_starts = 3\n") ==
+        "box.toml:21:17: key 'loading.coarse_starts' = 3: soil 'sand' is 2 m thick, less than the coarsest "
+        "spacing, 4 m");
+}
+
 TEST_CASE("each momentum form brings its own artificial terms") {
   const FormulationCase usual = parse_case(small_case, "box.toml").formulation;
   CHECK(usual.motion == Motion::consistent);
   CHECK(usual.artificial_viscosity_alpha == 0);
   CHECK(usual.artificial_stress == 0);
   CHECK(usual.bulk_viscosity == 0.06);
-  CHECK(usual.zero_energy_control == 0.05);
-  CHECK(usual.refresh_strain == 0.05);
+  CHECK(usual.zero_energy_control == 0.3);
+  CHECK(usual.refresh_strain == 0.02);
   for (const Motion motion : {Motion::conventional, Motion::proposed, Motion::rho_squared}) {
     const std::string set = "formulation.motion=" + std::string(motion_name(motion));
     const Case c = parse_case(small_case, "box.toml", {set});

@@ -1,0 +1,95 @@
+#include <cmath>
+
+#include "solver/geometry/arrangements.hpp"
+#include "solver/geometry/bands.hpp"
+#include "solver/geometry/clip.hpp"
+#include "solver/geometry/moments.hpp"
+#include "solver/geometry/slivers.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr double sliver = 0.3;      // of a cell: pieces cut off by a slope that are smaller join a neighbour
+constexpr double round_off = 1e-9;  // of a cell's area or side
+
+struct Cells {
+  std::vector<Band> columns, rows;
+
+  int count(const std::vector<Band>& bands) const { return static_cast<int>(bands.size()); }
+  Point middle(int cell) const { return {column(cell).middle, row(cell).middle}; }
+  double area(int cell) const {
+    return (column(cell).high - column(cell).low) * (row(cell).high - row(cell).low);
+  }
+  const Band& column(int cell) const { return columns[cell % columns.size()]; }
+  const Band& row(int cell) const { return rows[cell / columns.size()]; }
+
+  HalfPlane side(int cell, int side) const {
+    const auto [right, up] = cell_sides[side];
+    const Band& band = right == 0 ? row(cell) : column(cell);
+    return {Point(right, up), right + up < 0 ? -band.low : band.high};
+  }
+};
+
+/// Whether the rings are one upright rectangle with p inside or on its border: what is left of a cell beside
+/// free surfaces through its middle.
+bool is_rectangle_around(const Point& p, const std::vector<Polygon>& rings, double area, double tolerance) {
+  Point low = rings[0][0], high = low;
+  for (const Polygon& ring : rings)
+    for (const Point& q : ring) low = low.cwiseMin(q), high = high.cwiseMax(q);
+  const bool around = ((p - low).array() >= -tolerance).all() && ((high - p).array() >= -tolerance).all();
+  return around && std::abs((high - low).prod() - area) <= tolerance * (high - low).sum();
+}
+
+/// What the cells hold of a soil; `at_middle` is set for those whose particle is in the middle of the cell.
+Pieces cut_cells(const Cells& cells, const Region& region, double spacing, std::vector<char>& at_middle) {
+  Pieces pieces{.all = {},
+                .slivers = {},
+                .columns = cells.count(cells.columns),
+                .rows = cells.count(cells.rows),
+                .enough_area = sliver * spacing * spacing,
+                .shortest_side = round_off * spacing};
+  at_middle.assign(pieces.columns * pieces.rows, false);
+  std::vector<Polygon> strip;
+  for (int cell = 0; cell < pieces.columns * pieces.rows; ++cell) {
+    if (cell % pieces.columns == 0) {
+      strip = region.rings();
+      clip(strip, cells.side(cell, 0));
+      clip(strip, cells.side(cell, 3));
+    }
+    std::vector<Polygon> rings = strip;
+    clip(rings, cells.side(cell, 1));
+    clip(rings, cells.side(cell, 2));
+    const Point middle = cells.middle(cell);
+    const Moments m = moments(rings, middle);
+    if (m.area < round_off * cells.area(cell)) continue;
+    at_middle[cell] = is_rectangle_around(middle, rings, m.area, 1e-6 * spacing);
+    if (!at_middle[cell] && m.area < pieces.enough_area) {
+      SideLengths& lengths = pieces.slivers[static_cast<int>(pieces.all.size())];
+      for (int side = 0; side < 4; ++side)
+        lengths[side] = length_on_line(rings, cells.side(cell, side), round_off * spacing);
+    }
+    pieces.all.push_back({cell, m.area, middle + m.first / m.area});
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions) {
+  const Cells cells{bands_along(0, scene, regions), bands_along(1, scene, regions)};
+  std::vector<CellSite> sites;
+  std::vector<char> at_middle;
+  for (std::size_t soil = 0; soil < regions.size(); ++soil)
+    for (const Piece& piece :
+         join_slivers(cut_cells(cells, regions[soil], scene.particles.spacing, at_middle))) {
+      Site site{piece.centroid, piece.area, static_cast<int>(soil)};
+      if (at_middle[piece.cell]) {
+        site.position = cells.middle(piece.cell);
+        site.fill = piece.area / cells.area(piece.cell);
+      }
+      sites.push_back({piece.cell, site});
+    }
+  return sites;
+}
+
+}  // namespace porosph

@@ -1,0 +1,104 @@
+#include "vtk_io/run_folder/verdict_table.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/tokenizer.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr std::string_view head =
+    "x,y,class,cause,time,steps,error,unbalanced_force_ratio,energy_growth,fingerprint,message\n";
+constexpr std::size_t columns = 11;
+
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return '"' + text + '"';
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; }
+
+std::string line(const VerdictRow& row) {
+  const Verdict& v = row.verdict;
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(row.x), quoted(row.y),
+                     class_name(v.outcome), v.cause, number(v.time), v.steps, number(v.error),
+                     number(v.unbalanced), number(v.energy_growth), row.fingerprint, quoted(v.message));
+}
+
+class RowParser {
+ public:
+  RowParser(const std::filesystem::path& file, std::size_t line) : file_(file), line_(line) {}
+
+  VerdictRow parse(const std::string& text) const {
+    // Quotes and backslashes cannot occur in a field, so nothing is escaped.
+    const boost::escaped_list_separator<char> separator('\0', ',', '"');
+    const boost::tokenizer<boost::escaped_list_separator<char>> tokens(text, separator);
+    const std::vector<std::string> f(tokens.begin(), tokens.end());
+    if (f.size() != columns) fail(fmt::format("has {} fields instead of {}", f.size(), columns));
+    VerdictRow row{f[0], f[1], f[9], {}};
+    row.verdict = {.outcome = parsed_class(f[2]),
+                   .cause = f[3],
+                   .time = parsed(f[4]),
+                   .steps = static_cast<std::int64_t>(parsed(f[5])),
+                   .error = parsed(f[6]),
+                   .unbalanced = parsed(f[7]),
+                   .energy_growth = parsed(f[8]),
+                   .message = f[10]};
+    return row;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw ReadError(file_, fmt::format("line {}: {}", line_, what));
+  }
+  double parsed(const std::string& text) const {
+    if (text.empty()) return std::nan("");
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size())
+      fail(fmt::format("'{}' is no number", text));
+    return value;
+  }
+  StabilityClass parsed_class(const std::string& name) const {
+    for (int c = 0; c < stability_classes; ++c)
+      if (class_name(static_cast<StabilityClass>(c)) == name) return static_cast<StabilityClass>(c);
+    fail(fmt::format("'{}' is no class", name));
+  }
+
+  const std::filesystem::path& file_;
+  std::size_t line_;
+};
+
+}  // namespace
+
+void write_verdicts(const std::filesystem::path& file, const std::vector<VerdictRow>& rows) {
+  std::string text(head);
+  for (const VerdictRow& row : rows) text += line(row);
+  write_file(file, text);
+}
+
+std::vector<VerdictRow> read_verdicts(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  if (!text.starts_with(head)) throw ReadError(file, "it is no table of verdicts");
+  std::vector<VerdictRow> rows;
+  std::size_t number = 2;
+  for (std::size_t from = head.size(), end; (end = text.find('\n', from)) != std::string::npos;
+       from = end + 1)
+    rows.push_back(RowParser(file, number++).parse(text.substr(from, end - from)));
+  return rows;
+}
+
+VerdictWriter::VerdictWriter(const std::filesystem::path& file, const std::vector<VerdictRow>& known)
+    : file_((write_verdicts(file, known), file), O_WRONLY | O_APPEND, file) {}
+
+void VerdictWriter::append(const VerdictRow& row) { file_.write(line(row)); }
+
+}  // namespace porosph
