@@ -8,7 +8,7 @@
 #   --coverage          which lines the tests reach
 #   --paraview          ParaView, installed beside the build's own VTK, looks at runs
 #   --docs [FILE]       the shell lines of README and docs, also the long ones, in a fresh clone
-#   --package           packs the .deb, installs it and builds the example on it (needs to be root)
+#   --package           packs the .deb, unpacks them elsewhere and builds the example on what they hold
 #   --nightly           all tests, then the long ones (a million steps) and all stability maps in full
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -5,7 +5,6 @@
 
 #include "app/command.hpp"
 #include "app/shipped_cases.hpp"
-#include "solver/case/case_file.hpp"
 
 namespace porosph::app {
 
@@ -31,7 +30,7 @@ int list_command(const Arguments& arguments) {
   }
   std::size_t width = 0;
   for (const ShippedCase& c : cases) width = std::max(width, c.name.size());
-  for (const ShippedCase& c : cases) fmt::print("{:{}}  {}\n", c.name, width, read_case(c.file).title);
+  for (const ShippedCase& c : cases) fmt::print("{:{}}  {}\n", c.name, width, c.title);
   fmt::print("\nCompute one by its name: porosph run {}\n", cases.front().name);
   return Exit::done;
 }

@@ -1,7 +1,10 @@
 #include "app/shipped_cases.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <system_error>
+
+#include "solver/case/case_file.hpp"
 
 namespace porosph::app {
 namespace fs = std::filesystem;
@@ -14,6 +17,15 @@ fs::path cases_folder() {
   return program.parent_path().parent_path() / "share/porosph/cases";
 }
 
+/// Nothing where the file is no case.
+std::optional<std::string> title_of(const fs::path& file) {
+  try {
+    return read_case(file).title;
+  } catch (const CaseError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::vector<ShippedCase> shipped_cases() {
@@ -21,10 +33,12 @@ std::vector<ShippedCase> shipped_cases() {
   std::error_code none;  // no such folder: no cases
   const fs::path folder = cases_folder();
   const auto follow = fs::directory_options::follow_directory_symlink;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, follow, none))
-    if (entry.path().extension() == ".toml")
-      cases.push_back(
-          {entry.path().lexically_relative(folder).replace_extension().generic_string(), entry.path()});
+  for (const auto& entry : fs::recursive_directory_iterator(folder, follow, none)) {
+    if (entry.path().extension() != ".toml") continue;
+    const fs::path name = entry.path().lexically_relative(folder).replace_extension();
+    if (const auto title = title_of(entry.path()))
+      cases.push_back({name.generic_string(), *title, entry.path()});
+  }
   std::ranges::sort(cases, {},
                     [](const ShippedCase& c) { return std::pair(std::ranges::count(c.name, '/'), c.name); });
   return cases;

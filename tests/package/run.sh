@@ -19,9 +19,15 @@ for file in usr/bin/porosph usr/share/porosph/cases/foundation.toml usr/share/ma
   grep -q "\./$file\$" contents.txt || { echo "$file is missing" >&2; exit 1; }
 done
 
+work=$(mktemp -d)
+clean_up() {
+  if mountpoint -q "$work/bare/proc"; then umount "$work/bare/proc"; fi
+  rm -rf "$work"
+}
+trap clean_up EXIT
 if [ -n "${POROSPH_BARE:-}" ]; then
-  bare=$(mktemp -d)
-  trap 'umount "$bare/proc" 2> /dev/null || true; rm -rf "$bare"' EXIT
+  bare=$work/bare
+  mkdir "$bare"
   cp -a "$POROSPH_BARE/." "$bare"
   mount -t proc proc "$bare/proc"
   cp "$program" "$bare/tmp/"
@@ -30,8 +36,7 @@ if [ -n "${POROSPH_BARE:-}" ]; then
     porosph render results/my_slope --field TotalStress:YY; porosph list; test -s results/my_slope/TotalStress_YY.png'
 fi
 
-prefix=$(mktemp -d)
-trap 'rm -rf "$prefix"' EXIT
+prefix=$work/prefix
 dpkg-deb --extract "$program" "$prefix"
 dpkg-deb --extract "$development" "$prefix"
 ../../../tests/package/example.sh "$prefix/usr" ../../..
