@@ -16,9 +16,6 @@ class Collector : public Fields {
     add(key, {std::string(word)});
   }
   void numbers(const Key& key, std::vector<double>&, const Range&) override { add(key); }
-  void number_or(const Key& key, double&, const Range&, std::string_view word, bool&) override {
-    add(key, {"", std::string(word)});
-  }
   void integer(const Key& key, int&, const Range&) override { add(key); }
   void flag(const Key& key, bool&) override { add(key, {"true", "false"}); }
   void text(const Key& key, std::string&) override { add(key); }

@@ -43,11 +43,6 @@ class Explainer : public Fields {
   void numbers(const Key& key, std::vector<double>& values, const Range& range) override {
     line(key, toml_text(values), range.text());
   }
-  void number_or(const Key& key, double& value, const Range& range, std::string_view word,
-                 bool& is_word) override {
-    line(key, is_word ? fmt::format("\"{}\"", word) : toml_text(value),
-         fmt::format("{}, or \"{}\"", range.text(), word));
-  }
   void integer(const Key& key, int& value, const Range& range) override {
     line(key, fmt::to_string(value), range.text());
   }
