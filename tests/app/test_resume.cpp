@@ -80,7 +80,7 @@ TEST_CASE("damaged checkpoints") {
   }
 }
 
-TEST_CASE("--resume begins at the start where there is nothing, and is content where all is done") {
+TEST_CASE("resuming begins at the start where there is nothing, and is content where all is done") {
   const Workplace place;
   place.write("small.toml", small_case);
   const Outcome first = place.porosph("run small.toml --resume");

@@ -87,7 +87,7 @@ TEST_CASE("time step and damping: the usual ones are accurate, too large a step 
 
 TEST_CASE("soft soil: the default control holds where gradients are renewed") {
   const Map map("refresh_zero_energy");
-  map.all_accurate("0.3");
+  map.all_accurate("0.2");
   CHECK(map.at("0.01", "0").outcome != accurate);
   Map("soft_soil").all_accurate("consistent");
 }
