@@ -7,19 +7,11 @@
 #include <cmath>
 
 #include "solver/constitutive/linear_elastic.hpp"
+#include "solver/motion/kernels/vectors.hpp"
 #include "solver/stabilisation/bulk_viscosity.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
-
-#if defined(__AVX512F__)
-constexpr int width = 8;
-#elif defined(__AVX__)
-constexpr int width = 4;
-#else
-constexpr int width = 2;
-#endif
-using Vector = double __attribute__((vector_size(8 * width)));
 
 enum : int { xx, xy, yx, yy };
 enum : int { pressure_lane = 4, velocity_lane = 6 };  // the flux comes first
@@ -32,13 +24,6 @@ struct Row {
   double* value = numbers + slack;
   double* of(std::int32_t a, std::int32_t first) { return value + (a - first); }
 };
-
-inline Vector load(const double* p) {
-  Vector v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(double* p, const Vector& v) { __builtin_memcpy(p, &v, sizeof v); }
 
 struct TileRange {
   std::int32_t first, last;
