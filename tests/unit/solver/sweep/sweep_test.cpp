@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include "solver/case/case_file.hpp"
 #include "solver/sweep/run_sweep.hpp"
