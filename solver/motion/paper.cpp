@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "solver/correction/kernel_correction.hpp"
-#include "solver/motion/soil_step.hpp"
 #include "solver/stabilisation/artificial_stress.hpp"
 
 namespace porosph {
@@ -16,6 +15,7 @@ PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, V
       viscosity_{formulation.artificial_viscosity_alpha, formulation.artificial_viscosity_beta},
       kernel_(model.smoothing_length),
       kernels_(paper_kernels(units)),
+      soil_(model),
       skin_(0.2 * model.spacing),
       artificial_exponent_(kernel_.value(0) / kernel_.value(model.spacing)) {
   make_virtual_particles();
@@ -79,7 +79,8 @@ void PaperDynamics::make_room() {
   const std::size_t n = searched_.size(), all = points_.size();
   wall_gradient_.resize(wall_neighbours_.index.size());
   stickiness_.resize(wall_neighbours_.index.size());
-  correction_.resize(n);
+  for (auto& l : correction_) l.resize(n);
+  for (auto& w : wall_velocity_) w.assign(n, 0);
   gradient_sum_.resize(n);
   wall_sums_.assign(n, {});  // most particles are far from walls
   for (auto& s : sum_) s.resize(n);
@@ -102,6 +103,11 @@ void PaperDynamics::connect_arrays() {
   c.volume = volume_.data(), c.density = density_.data(), c.sound = sound_.data();
   for (int k = 0; k < 3; ++k) c.stress[k] = stress_[k].data();
   c.pressure = pressure_.data();
+  for (int k = 0; k < 4; ++k) c.correction[k] = correction_[k].data();
+  for (int k = 0; k < 2; ++k) c.wall_velocity[k] = wall_velocity_[k].data();
+  c.shear_modulus = soil_.shear_modulus.data(), c.bulk_modulus = soil_.bulk_modulus.data();
+  c.no_tension = soil_.no_tension.data();
+  c.one_soil = model_.soils.size() == 1;
   c.weight = reinterpret_cast<double*>(weight_.data());
   for (int k = 0; k < PaperArrays::sums; ++k) c.sum[k] = sum_[k].data();
 }
@@ -141,7 +147,9 @@ void PaperDynamics::correct(std::size_t a) {
   Mat2 moment =
       (Mat2() << sum_[PaperArrays::moment_xx][a], xy, xy, sum_[PaperArrays::moment_yy][a]).finished();
   if (at_wall) moment += make_wall_gradients(a);
-  correction_[a] = formulation_.kernel_correction ? correction_matrix(moment) : Mat2(Mat2::Identity());
+  const Mat2 l = formulation_.kernel_correction ? correction_matrix(moment) : Mat2(Mat2::Identity());
+  correction_[0][a] = l(0, 0), correction_[1][a] = l(0, 1);
+  correction_[2][a] = l(1, 0), correction_[3][a] = l(1, 1);
   gradient_sum_[a] = corrected(a, PaperArrays::gradient_x, PaperArrays::gradient_y);
   if (at_wall) sum_wall_gradients(a);
 }
@@ -160,23 +168,31 @@ Mat2 PaperDynamics::make_wall_gradients(std::size_t a) {
 
 void PaperDynamics::sum_wall_gradients(std::size_t a) {
   WallSums walls;
+  Vec2 velocity = Vec2::Zero();
   for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
     const std::int32_t b = wall_neighbours_.index[k];
     const Wall& wall = model_.walls[virtual_wall_[b]];
-    const Vec2 g = correction_[a] * wall_gradient_[k];
+    const Vec2 g = corrected(a, wall_gradient_[k]);
     wall_gradient_[k] = g;
     const double mine = wall.distance(points_[a]), its = -wall.distance(virtual_points_[b]);
     stickiness_[k] = 1 + (its < 0.5 * mine ? its / mine : 0.5);
     walls.gradient += g;
-    walls.velocity += stickiness_[k] * g;
+    velocity += stickiness_[k] * g;
     walls.pressure += virtual_pressure_[b] * g;
   }
   wall_sums_[a] = walls;
+  wall_velocity_[0][a] = velocity.x(), wall_velocity_[1][a] = velocity.y();
 }
 
-/// L of particle a times the vector whose components are these sums.
+/// L of particle a times a vector.
+Vec2 PaperDynamics::corrected(std::size_t a, const Vec2& v) const {
+  return {correction_[0][a] * v.x() + correction_[1][a] * v.y(),
+          correction_[2][a] * v.x() + correction_[3][a] * v.y()};
+}
+
+/// The same of the vector whose components are these sums.
 Vec2 PaperDynamics::corrected(std::size_t a, int x, int y) const {
-  return correction_[a] * Vec2(sum_[x][a], sum_[y][a]);
+  return corrected(a, Vec2(sum_[x][a], sum_[y][a]));
 }
 
 void PaperDynamics::fill_ghost_velocities() {
@@ -261,7 +277,7 @@ Vec2 PaperDynamics::tension_control(std::size_t a) const {
     if (r.isZero(0)) continue;
     const Vec2 to_b = points_[b] - points_[a];
     const double distance = to_b.norm();
-    const Vec2 g = -volume_[b] * kernel_.slope(distance) * (correction_[a] * to_b);
+    const Vec2 g = -volume_[b] * kernel_.slope(distance) * corrected(a, to_b);
     const double f = std::pow(kernel_.value(distance) / at_spacing, artificial_exponent_);
     force += density_[b] * f * Vec2(r[0] * g.x() + r[2] * g.y(), r[2] * g.x() + r[1] * g.y());
   }
@@ -303,36 +319,24 @@ void PaperDynamics::accelerations(std::span<Vec2> out) {
   }
 }
 
-/// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
-Mat2 PaperDynamics::velocity_gradient(std::size_t a) const {
-  Mat2 gradient;
-  gradient.row(0) = corrected(a, PaperArrays::rate_xx, PaperArrays::rate_xy);
-  gradient.row(1) = corrected(a, PaperArrays::rate_yx, PaperArrays::rate_yy);
-  // What sticks to a wall moves against v_a.
-  return gradient - model_.particles.velocity[a] * wall_sums_[a].velocity.transpose();
-}
-
-/// Calls use(a, velocity gradient) for all particles.
-template <class Use>
-void PaperDynamics::for_velocity_gradients(Use&& use) {
+void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
+  using Sums = PaperArrays;
   fill_ghost_velocities();
 #pragma omp parallel for schedule(static)
   for (std::int32_t run = 0; run < runs_.count(); ++run) {
     kernels_.rates(arrays_, run);
-    for (std::int32_t a = runs_.runs[run].first; a < runs_.runs[run].last; ++a) use(a, velocity_gradient(a));
+    for (std::int32_t a = runs_.runs[run].first; a < runs_.runs[run].last; ++a)
+      out[a] << sum_[Sums::rate_xx][a], sum_[Sums::rate_xy][a], sum_[Sums::rate_yx][a],
+          sum_[Sums::rate_yy][a];
   }
 }
 
-void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
-  for_velocity_gradients([&](std::size_t a, const Mat2& gradient) { out[a] = gradient; });
-}
-
 void PaperDynamics::strain(double dt) {
-  for_velocity_gradients([&](std::size_t a, const Mat2& rate) {
-    const Mat2 gradient = mid_step_gradient(rate, dt);
-    update_stress(model_, a, gradient, dt);
-    update_density(model_.particles, a, gradient, dt);
-  });
+  fill_ghost_velocities();
+  arrays_.effective_stress = &model_.particles.stress.data()->xx;
+  arrays_.own_density = model_.particles.density.data();
+#pragma omp parallel for schedule(static)
+  for (std::int32_t run = 0; run < runs_.count(); ++run) kernels_.strain(arrays_, run, dt);
 }
 
 /// Neighbours and ghosts are those of the last search; the rest is made anew in every step.

@@ -9,6 +9,7 @@
 #include "solver/motion/kernels/paper_kernels.hpp"
 #include "solver/motion/kernels/record.hpp"
 #include "solver/motion/paper_form.hpp"
+#include "solver/motion/soil_arrays.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "solver/stabilisation/artificial_viscosity.hpp"
 
@@ -44,10 +45,8 @@ class PaperDynamics final : public Dynamics {
   Vec2 viscous(std::size_t a) const;
   Vec2 tension_control(std::size_t a) const;
   Vec2 stabilisation_at_walls(std::size_t a) const;
-  Mat2 velocity_gradient(std::size_t a) const;
+  Vec2 corrected(std::size_t a, const Vec2& v) const;
   Vec2 corrected(std::size_t a, int x, int y) const;
-  template <class Use>
-  void for_velocity_gradients(Use&& use);
 
   Model& model_;
   FormulationCase formulation_;
@@ -55,6 +54,7 @@ class PaperDynamics final : public Dynamics {
   ArtificialViscosity viscosity_;
   CubicSpline<2> kernel_;
   const PaperKernels& kernels_;
+  SoilArrays soil_;
   double skin_;                 ///< neighbours are searched this much beyond the support [m]
   double artificial_exponent_;  ///< n = W(0) / W(dx)
 
@@ -76,15 +76,16 @@ class PaperDynamics final : public Dynamics {
   PaperArrays arrays_{};
   std::vector<Record> weight_;  ///< of the runs' pairs; whole cache lines
   std::array<std::vector<double>, PaperArrays::sums> sum_;
-  std::vector<Mat2> correction_;     ///< L
-  std::vector<Vec2> wall_gradient_;  ///< G of each pair with a virtual particle
-  std::vector<double> stickiness_;   ///< of each of them: 1 + min(d_b / d_a, 1/2)
-  std::vector<Vec2> gradient_sum_;   ///< sum of G_ab over particles and ghosts
+  std::array<std::vector<double>, 4> correction_;  ///< L
+  std::vector<Vec2> wall_gradient_;                ///< G of each pair with a virtual particle
+  std::vector<double> stickiness_;                 ///< of each of them: 1 + min(d_b / d_a, 1/2)
+  std::vector<Vec2> gradient_sum_;                 ///< sum of G_ab over particles and ghosts
   struct WallSums {
-    Vec2 gradient = Vec2::Zero(), velocity = Vec2::Zero(), pressure = Vec2::Zero();
+    Vec2 gradient = Vec2::Zero(), pressure = Vec2::Zero();
   };
-  std::vector<WallSums> wall_sums_;  ///< sums over virtual neighbours of G, stickiness G, p_b G
-  std::vector<Eigen::Vector3d> artificial_stress_;  ///< R, of particles and ghosts
+  std::vector<WallSums> wall_sums_;                   ///< sums over virtual neighbours of G and p_b G
+  std::array<std::vector<double>, 2> wall_velocity_;  ///< of stickiness G
+  std::vector<Eigen::Vector3d> artificial_stress_;    ///< R, of particles and ghosts
   bool any_tension_ = false;
 };
 

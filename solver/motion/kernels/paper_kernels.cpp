@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/motion/kernels/mid_step.hpp"
 #include "solver/motion/kernels/vectors.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
@@ -16,9 +18,9 @@ using Arrays = PaperArrays;
 struct Geometry {
   const Arrays& c;
   Vector x, y;
-  double per_h = 1 / c.smoothing_length, inner = 3 * c.slope, inner_q = 2.25 * c.slope,
-         outer = 0.75 * c.slope;
-  Vector xx{}, xy{}, yy{}, gx{}, gy{};
+  double per_h_squared = 1 / (c.smoothing_length * c.smoothing_length), inner = 3 * c.slope,
+         inner_q = 2.25 * c.slope, outer = 0.75 * c.slope;
+  Vector coincident = all(1e-30), xx{}, xy{}, yy{}, gx{}, gy{};
 
   template <class Own>
   Geometry(const Arrays& arrays, Own&& own) : c(arrays), x(own(c.position[0])), y(own(c.position[1])) {}
@@ -26,9 +28,11 @@ struct Geometry {
   template <class Of>
   void add(double* weight, Of&& of) {
     const Vector dx = of(c.position[0]) - x, dy = of(c.position[1]) - y;
-    const Vector q = square_root(dx * dx + dy * dy) * per_h;  // cubic spline, eq. (2)
+    const Vector squared = (dx * dx + dy * dy) * per_h_squared;  // cubic spline, eq. (2)
+    const Vector q2 = squared > coincident ? squared : coincident;
+    const Vector per_q = inverse_square_root(q2), q = q2 * per_q;
     const Vector rest = 2 - q, t = rest > 0 ? rest : Vector{};
-    const Vector w = of(c.volume) * (q < 1 ? inner - inner_q * q : outer * t * t / q);
+    const Vector w = of(c.volume) * (q < 1 ? inner - inner_q * q : outer * t * t * per_q);
     store(weight, w);
     const Vector x_part = w * dx, y_part = w * dy;
     xx += x_part * dx, xy += x_part * dy, yy += y_part * dy;
@@ -168,9 +172,54 @@ void forces(const Arrays& c, std::int32_t run) {
     viscous ? run_of<Forces<false, true>>(c, run) : run_of<Forces<false, false>>(c, run);
 }
 
+/// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
+/// What sticks to a wall moves against v_a.
+void rates(const Arrays& c, std::int32_t number) {
+  run_of<Rates>(c, number);
+  const PairRuns::Run run = c.runs->runs[number];
+  const double *lxx = c.correction[0], *lxy = c.correction[1], *lyx = c.correction[2], *lyy = c.correction[3];
+  const double *vx = c.velocity[0], *vy = c.velocity[1], *wx = c.wall_velocity[0], *wy = c.wall_velocity[1];
+  double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
+  double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
+#pragma omp simd
+  for (std::int32_t a = run.first; a < run.last; ++a) {
+    const double axx = xx[a], axy = xy[a], ayx = yx[a], ayy = yy[a];
+    xx[a] = axx * lxx[a] + axy * lxy[a] - vx[a] * wx[a], xy[a] = axx * lyx[a] + axy * lyy[a] - vx[a] * wy[a];
+    yx[a] = ayx * lxx[a] + ayy * lxy[a] - vy[a] * wx[a], yy[a] = ayx * lyx[a] + ayy * lyy[a] - vy[a] * wy[a];
+  }
+}
+
+template <bool one_soil>
+void material_step(const Arrays& c, const PairRuns::Run& run, double dt) {
+  const double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
+  const double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
+  const double *shear = c.shear_modulus, *bulk = c.bulk_modulus, *no_tension = c.no_tension;
+  double *stress = c.effective_stress, *density = c.own_density;
+  const double half = 0.5 * dt;
+#pragma omp simd
+  for (std::int32_t a = run.first; a < run.last; ++a) {
+    const Gradient rate(xx[a], xy[a], yx[a], yy[a]);
+    const Gradient gradient =
+        mid_step_gradient(rate, {1 + half * rate.xx, half * rate.xy, half * rate.yx, 1 + half * rate.yy});
+    const std::int32_t k = one_soil ? 0 : a;
+    const LinearElastic material{shear[k], bulk[k], no_tension[k] != 0};
+    const Stress s = material.update({stress[4 * a], stress[4 * a + 1], stress[4 * a + 2], stress[4 * a + 3]},
+                                     gradient, dt);
+    stress[4 * a] = s.xx, stress[4 * a + 1] = s.yy, stress[4 * a + 2] = s.zz, stress[4 * a + 3] = s.xy;
+    const double half_strain = half * gradient.trace();  // d(rho)/dt = -rho tr(D)
+    density[a] *= (1 - half_strain) / (1 + half_strain);
+  }
+}
+
+void strain(const Arrays& c, std::int32_t number, double dt) {
+  rates(c, number);
+  const PairRuns::Run run = c.runs->runs[number];
+  c.one_soil ? material_step<true>(c, run, dt) : material_step<false>(c, run, dt);
+}
+
 }  // namespace
 
 extern const PaperKernels paper_kernels;
-const PaperKernels paper_kernels = {run_of<Geometry>, forces, run_of<Rates>};
+const PaperKernels paper_kernels = {run_of<Geometry>, forces, rates, strain};
 
 }  // namespace porosph::POROSPH_VECTOR_UNITS

@@ -30,7 +30,7 @@ struct PaperArrays {
     density_y
   };
   /// Of the rates: of (v_b - v_a) (x) g.
-  enum : int { rate_xx, rate_xy, rate_yx, rate_yy };
+  enum : int { rate_xx, rate_xy, rate_yx, rate_yy };  // and then of the velocity gradient
   static constexpr int sums = 12;
 
   const PairRuns* runs;
@@ -44,6 +44,14 @@ struct PaperArrays {
   const double* stress[3];  ///< xx, yy, xy: sigma' + p_w I [Pa]; of rho_squared sigma' / rho [m2/s2]
   const double* pressure;   ///< p_w [Pa]; read of rho_squared only
 
+  const double* correction[4];     ///< L of particles: xx, xy, yx, yy
+  const double* wall_velocity[2];  ///< of particles: sum over virtual neighbours of stickiness times G [1/m]
+  const double *shear_modulus, *bulk_modulus;  ///< of particles, or one entry in one soil [Pa]
+  const double* no_tension;                    ///< 1 or 0, as many
+  bool one_soil;
+  double* effective_stress;  ///< of particles, four numbers each: xx, yy, zz, xy [Pa]
+  double* own_density;       ///< of particles [kg/m3]
+
   double* weight;     ///< w of each pair [1/m2]
   double* sum[sums];  ///< per particle
 };
@@ -54,8 +62,10 @@ struct PaperKernels {
   void (*geometry)(const PaperArrays&, std::int32_t run);
   /// Writes the sums of the momentum equation.
   void (*forces)(const PaperArrays&, std::int32_t run);
-  /// Writes sum (v_b - v_a) (x) g.
+  /// Writes the velocity gradients, with walls.
   void (*rates)(const PaperArrays&, std::int32_t run);
+  /// Carries effective stress and density over a step dt [s].
+  void (*strain)(const PaperArrays&, std::int32_t run, double dt);
 };
 
 /// Those compiled for these vector units, which the program must have.

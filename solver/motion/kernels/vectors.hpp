@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
 
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
@@ -31,10 +34,17 @@ inline Vector gather(const double* p, const std::int32_t* index) {
   (std::make_integer_sequence<int, width>{});
 }
 
-inline Vector square_root(const Vector& v) {
+/// v > 0, to some units in the last place.
+inline Vector inverse_square_root(const Vector& v) {
+#if defined(__AVX512F__)
+  Vector y = _mm512_maskz_rsqrt14_pd(0xff, v);  // 14 bits; each of Newton's steps doubles them
+  for (int step = 0; step < 2; ++step) y += y * (0.5 - 0.5 * v * y * y);
+  return y;
+#else
   Vector root;
   for (int lane = 0; lane < width; ++lane) root[lane] = std::sqrt(v[lane]);
-  return root;
+  return 1 / root;
+#endif
 }
 
 inline double sum_of_lanes(const Vector& v) {
