@@ -114,19 +114,29 @@ void PaperDynamics::connect_arrays() {
 
 void PaperDynamics::move_ghosts() {
   const auto& position = model_.particles.position;
-  std::copy(position.begin(), position.end(), points_.begin());
-  for (std::size_t i = 0; i < ghosts_.size(); ++i)
-    points_[position.size() + i] = model_.walls[ghosts_[i].wall].mirrored(points_[ghosts_[i].parent]);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    position_[0][i] = points_[i].x(), position_[1][i] = points_[i].y();
+  const std::size_t n = position.size();
+  double *x = position_[0].data(), *y = position_[1].data();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    points_[a] = position[a];
+    x[a] = position[a].x(), y[a] = position[a].y();
+  }
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    const Vec2 ghost = points_[n + i] = model_.walls[ghosts_[i].wall].mirrored(points_[ghosts_[i].parent]);
+    x[n + i] = ghost.x(), y[n + i] = ghost.y();
+  }
 }
 
 void PaperDynamics::make_gradients() {
   const Particles& p = model_.particles;
+  const double *mass = p.mass.data(), *rho = p.density.data(), *shear = soil_.shear_modulus.data();
+  double *volume = volume_.data(), *density = density_.data(), *sound = sound_.data();
+  const bool one_soil = arrays_.one_soil;
+#pragma omp parallel for simd schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
-    volume_[a] = p.volume(a);
-    density_[a] = p.density[a];
-    sound_[a] = std::sqrt(model_.soils[p.soil[a]].shear_modulus / p.density[a]);  // eq. (16)
+    volume[a] = mass[a] / rho[a];
+    density[a] = rho[a];
+    sound[a] = std::sqrt(shear[one_soil ? 0 : a] / rho[a]);  // eq. (16)
   }
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
@@ -197,43 +207,51 @@ Vec2 PaperDynamics::corrected(std::size_t a, int x, int y) const {
 
 void PaperDynamics::fill_ghost_velocities() {
   const auto& v = model_.particles.velocity;
-  for (std::size_t a = 0; a < v.size(); ++a) velocity_[0][a] = v[a].x(), velocity_[1][a] = v[a].y();
+  double *x = velocity_[0].data(), *y = velocity_[1].data();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < v.size(); ++a) x[a] = v[a].x(), y[a] = v[a].y();
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const std::size_t ghost = v.size() + i, parent = ghosts_[i].parent;
-    const Vec2 mirrored =
-        model_.walls[ghosts_[i].wall].reflection() * Vec2(velocity_[0][parent], velocity_[1][parent]);
-    velocity_[0][ghost] = mirrored.x(), velocity_[1][ghost] = mirrored.y();
+    const Vec2 mirrored = model_.walls[ghosts_[i].wall].reflection() * Vec2(x[parent], y[parent]);
+    x[ghost] = mirrored.x(), y[ghost] = mirrored.y();
   }
 }
 
 void PaperDynamics::fill_stress() {
   const Particles& p = model_.particles;
-  auto& [xx, yy, xy] = stress_;
+  double *xx = stress_[0].data(), *yy = stress_[1].data(), *xy = stress_[2].data(),
+         *pressure = pressure_.data();
+  const bool per_density = form_.stress_over_rho_squared;
+#pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
     const Stress& s = p.stress[a];
-    const double scale = form_.stress_over_rho_squared ? 1 / p.density[a] : 1;
+    const double scale = per_density ? 1 / p.density[a] : 1;
     xx[a] = s.xx * scale, yy[a] = s.yy * scale, xy[a] = s.xy * scale;
-    pressure_[a] = p.pore_pressure[a];
+    pressure[a] = p.pore_pressure[a];
   }
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
     const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
     const Mat2 s = r * (Mat2() << xx[parent], xy[parent], xy[parent], yy[parent]).finished() * r;
     xx[ghost] = s(0, 0), yy[ghost] = s(1, 1), xy[ghost] = s(0, 1);
-    pressure_[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[ghost]);
+    pressure[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[ghost]);
   }
-  if (form_.stress_over_rho_squared) return;
-  for (std::size_t i = 0; i < points_.size(); ++i) xx[i] += pressure_[i], yy[i] += pressure_[i];
+  if (per_density) return;
+#pragma omp parallel for simd schedule(static)
+  for (std::size_t i = 0; i < points_.size(); ++i) xx[i] += pressure[i], yy[i] += pressure[i];
 }
 
 void PaperDynamics::fill_artificial_stress() {
   const Particles& p = model_.particles;
   any_tension_ = false;
   if (formulation_.artificial_stress == 0) return;
+  bool any = false;
+#pragma omp parallel for schedule(static) reduction(|| : any)
   for (std::size_t a = 0; a < p.size(); ++a) {
     artificial_stress_[a] = artificial_stress(p.stress[a], p.density[a], formulation_.artificial_stress);
-    any_tension_ = any_tension_ || !artificial_stress_[a].isZero(0);
+    any = any || !artificial_stress_[a].isZero(0);
   }
+  any_tension_ = any;
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const Eigen::Vector3d& parent = artificial_stress_[ghosts_[i].parent];
     const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
