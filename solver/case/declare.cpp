@@ -38,7 +38,7 @@ FormulationCase default_formulation(Motion motion) {
   c.motion = motion;
   if (motion == Motion::consistent) {
     c.bulk_viscosity = 0.06;
-    c.zero_energy_control = 0.3;  // both by the map cases/stability/refresh_zero_energy.toml
+    c.zero_energy_control = 0.1;  // both by the map cases/stability/refresh_zero_energy.toml
     c.refresh_strain = 0.02;
   } else {
     c.artificial_viscosity_alpha = 0.1;

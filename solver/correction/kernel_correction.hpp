@@ -21,10 +21,11 @@ inline Mat2 limited_correction(const Mat2& sum, double least) {
 }
 
 /// L of eq. (10) from its sum, sum_b V_b grad_a W_ab (x) (x_b - x_a). (The paper prints x_a - x_b, which
-/// would turn the sign of every gradient; the test is that a linear field's gradient comes out exact.)
-inline Mat2 correction_matrix(const Mat2& sum) {
-  constexpr double spans_the_plane = 0.15,
-                   least = 0.1;  // inside det is 1, in a right-angled corner about 1/4
+/// would turn the sign of every gradient; the test is that a linear field's gradient comes out exact.) Exact
+/// where the sum's determinant, which is 1 inside and about 1/4 in a right-angled corner, exceeds
+/// `spans_the_plane`.
+inline Mat2 correction_matrix(const Mat2& sum, double spans_the_plane = 0.15) {
+  constexpr double least = 0.1;
   return sum.determinant() > spans_the_plane ? inverse(sum) : limited_correction(sum, least);
 }
 

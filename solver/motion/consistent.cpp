@@ -134,7 +134,7 @@ void ConsistentDynamics::make_one_sided_gradients() {
       stencil.gradient.push_back(g);
       sum += g * (points_[b] - points_[a]).transpose();
     });
-    const Mat2 correction = correction_matrix(sum);
+    const Mat2 correction = correction_matrix(sum, 0.01);  // it extrapolates, no force is as stiff as it
     for (Vec2& g : stencil.gradient) g = correction * g;
     place[a] = one_sided_of_[i] = static_cast<std::int32_t>(one_sided_.size());
     one_sided_.push_back(std::move(stencil));

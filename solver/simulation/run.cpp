@@ -44,9 +44,8 @@ std::vector<double> history_row(const Simulation& s) {
 }
 
 /// Physical damping and viscosity only lose energy, so growth is an error of the motion equation.
-double energy_growth(const Simulation::Energy& now, double at_start) {
-  const double at_work = now.kinetic + now.elastic;
-  return at_work > 0 ? (now.total() - at_start) / at_work : 0;
+double energy_growth(const Simulation::Energy& now, const RunProgress& progress) {
+  return progress.most_at_work > 0 ? (now.total() - progress.energy_at_start) / progress.most_at_work : 0;
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
@@ -59,24 +58,26 @@ bool keeps_energy(const Case& scene) {
 /// Breakdown that does not show in a single step.
 class Guard {
  public:
-  Guard(Simulation& s, double energy_at_start)
-      : energy_at_start_(energy_at_start), watches_energy_(keeps_energy(s.scene())) {}
+  explicit Guard(const Simulation& s) : watches_energy_(keeps_energy(s.scene())) {}
 
-  void look(Simulation& s) {
+  void look(Simulation& s, RunProgress& progress) const {
     if (s.instability() || s.step() % steps_between_energy_checks != 0) return;
     if (s.step() % steps_between_searches == 0) s.look_for_breakdown();
-    if (!s.instability() && watches_energy_) weigh_energy(s);
+    if (!s.instability()) weigh_energy(s, progress);
     if (!s.instability()) s.remember();
   }
 
  private:
-  void weigh_energy(Simulation& s) {
+  void weigh_energy(Simulation& s, RunProgress& progress) const {
     constexpr double tolerable = 0.5;
-    const double gained = energy_growth(s.energy(), energy_at_start_);
-    if (!(gained <= tolerable)) s.stop(energy_gain(s.model(), s.velocities(), gained, s.time()));
+    const Simulation::Energy now = s.energy();
+    // A vibration has moments of little motion and little strain: its largest is what growth is measured by.
+    progress.most_at_work = std::max(progress.most_at_work, now.kinetic + now.elastic);
+    const double gained = energy_growth(now, progress);
+    if (watches_energy_ && !(gained <= tolerable))
+      s.stop(energy_gain(s.model(), s.velocities(), gained, s.time()));
   }
 
-  double energy_at_start_;
   bool watches_energy_;
 };
 
@@ -107,6 +108,7 @@ void RunProgress::visit(StateArchive& state) {
   state.value("framed", framed);
   state.value("recorded", recorded);
   state.value("energy_at_start", energy_at_start);
+  state.value("most_at_work", most_at_work);
   state.value("unbalanced_at", unbalanced_at);
   state.value("stepping_seconds", stepping_seconds);
 }
@@ -131,14 +133,16 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   };
 
   if (!progress.has_begun()) {
-    progress.energy_at_start = s.energy().total();
+    const Simulation::Energy energy = s.energy();
+    progress.energy_at_start = energy.total();
+    progress.most_at_work = energy.kinetic + energy.elastic;
     record(true, true);
   }
-  Guard guard(s, progress.energy_at_start);
+  const Guard guard(s);
   while (s.step() < s.last_step()) {
     const auto before = Clock::now();
     s.advance();
-    guard.look(s);
+    guard.look(s, progress);
     const bool settled = !s.instability() && equilibrium.reached(s, progress.unbalanced_at);
     progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
@@ -168,7 +172,9 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     record(progress.framed < s.step(), false);
     s.exchange_with_last_good();
   }
-  outcome.energy_growth = showable ? energy_growth(s.energy(), progress.energy_at_start) : std::nan("");
+  const Simulation::Energy energy = s.energy();
+  progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
+  outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
   return outcome;
 }
 

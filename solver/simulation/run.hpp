@@ -27,6 +27,7 @@ class Schedule {
 struct RunProgress {
   std::int64_t framed = -1, recorded = -1;  ///< steps of the last frame and history row that were due
   double energy_at_start = 0;               ///< [J/m]
+  double most_at_work = 0;                  ///< largest kinetic and elastic energy seen [J/m]
   double unbalanced_at = 0;                 ///< last time at which forces were seen out of balance [s]
   double stepping_seconds = 0;              ///< wall time without what the watch did [s]
 

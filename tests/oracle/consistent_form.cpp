@@ -135,13 +135,9 @@ class ConsistentForm {
   }
 
   double zero_energy_viscosity() const {
-    double lightest = never, fastest = 0;
-    for (std::size_t a = 0; a < start_.particles.size(); ++a) {
-      const double rho = start_.particles.density[a];
-      const double modulus = start_.soils[start_.particles.soil[a]].constrained_modulus();
-      lightest = std::min(lightest, rho);
-      fastest = std::max(fastest, std::sqrt(modulus / rho));
-    }
+    const auto& density = start_.particles.density;
+    const double lightest = *std::min_element(density.begin(), density.end());
+    const double fastest = start_.wave_speed;  // which sets the time step
     return formulation_.zero_energy_control * lightest * fastest * reference_.smoothing_length;
   }
 
