@@ -32,18 +32,10 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       formulation_(formulation),
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
+      soil_(model),
       zero_energy_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) *
                              model.smoothing_length),
       zero_energy_rate_(formulation.zero_energy_stiffness * model.wave_speed / model.smoothing_length) {
-  const auto add = [&](const LinearElastic& soil) {
-    shear_modulus_.push_back(soil.shear_modulus);
-    bulk_modulus_.push_back(soil.bulk_modulus);
-    no_tension_.push_back(soil.no_tension ? 1.0 : 0.0);
-  };
-  if (model.soils.size() == 1)
-    add(model.soils.front());
-  else
-    for (const std::int32_t soil : model.particles.soil) add(model.soils[soil]);
   for (const Wall& wall : model.walls) {
     const Mat2 r = wall.reflection();
     reflection_.push_back({r, wall.kind == BoundaryKind::fixed ? Mat2(-Mat2::Identity()) : r});
@@ -200,8 +192,8 @@ void ConsistentDynamics::connect_arrays() {
   c.stencils = &stencils_;
   const_data(correction_, c.correction);
   c.reference_density = reference_density_.data();
-  c.shear_modulus = shear_modulus_.data(), c.bulk_modulus = bulk_modulus_.data();
-  c.no_tension = no_tension_.data();
+  c.shear_modulus = soil_.shear_modulus.data(), c.bulk_modulus = soil_.bulk_modulus.data();
+  c.no_tension = soil_.no_tension.data();
   c.one_soil = model_.soils.size() == 1;
   c.wet = wet_;
   c.zero_energy_viscosity = zero_energy_viscosity_;

@@ -8,6 +8,7 @@
 #include "solver/motion/dynamics.hpp"
 #include "solver/motion/kernels/consistent_kernels.hpp"
 #include "solver/motion/pair_stencils.hpp"
+#include "solver/motion/soil_arrays.hpp"
 
 namespace porosph {
 
@@ -69,9 +70,9 @@ class ConsistentDynamics final : public Dynamics {
   FormulationCase formulation_;
   CubicSpline<2> kernel_;
   const ConsistentKernels& kernels_;
+  SoilArrays soil_;
   double zero_energy_viscosity_;  ///< mu = kappa rho c_p h [Pa s]
   double zero_energy_rate_;       ///< the control acts on v + rate * displacement since the reference [1/s]
-  std::vector<double> shear_modulus_, bulk_modulus_, no_tension_;  ///< per particle; one entry in one soil
   struct Reflection {
     Mat2 stress;    ///< R
     Mat2 velocity;  ///< of what moves: R at a roller, -I at a fixed wall

@@ -4,22 +4,18 @@
 #include <cmath>
 
 #include "solver/correction/kernel_correction.hpp"
-#include "solver/motion/soil_step.hpp"
 #include "solver/stabilisation/artificial_stress.hpp"
 
 namespace porosph {
-namespace {
 
-enum : int { s_xx, s_yy, s_xy, pressure, density };  // lanes of a record
-
-}  // namespace
-
-PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model)
+PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
     : model_(model),
       formulation_(formulation),
       form_(formulation.motion),
       viscosity_{formulation.artificial_viscosity_alpha, formulation.artificial_viscosity_beta},
       kernel_(model.smoothing_length),
+      kernels_(paper_kernels(units)),
+      soil_(model),
       skin_(0.2 * model.spacing),
       artificial_exponent_(kernel_.value(0) / kernel_.value(model.spacing)) {
   make_virtual_particles();
@@ -73,138 +69,189 @@ void PaperDynamics::search() {
   ghost_root_ = roots(ghosts_, n);
   neighbours_ = find_neighbours(points_, n, reach);
   wall_neighbours_ = find_neighbours(position, virtual_points_, reach);
-  gradient_.resize(neighbours_.index.size());
+  runs_ = make_pair_runs(neighbours_);
+  make_room();
+  connect_arrays();
+  ++counts.searches;
+}
+
+void PaperDynamics::make_room() {
+  const std::size_t n = searched_.size(), all = points_.size();
   wall_gradient_.resize(wall_neighbours_.index.size());
   stickiness_.resize(wall_neighbours_.index.size());
+  for (auto& l : correction_) l.resize(n);
+  for (auto& w : wall_velocity_) w.assign(n, 0);
   gradient_sum_.resize(n);
-  wall_sums_.resize(n);
-  records_.resize(points_.size());
-  volume_.resize(points_.size());
-  density_.resize(points_.size());
-  sound_.resize(points_.size());
-  velocities_.resize(points_.size());
-  artificial_stress_.assign(points_.size(), Eigen::Vector3d::Zero());
-  ++counts.searches;
+  wall_sums_.assign(n, {});  // most particles are far from walls
+  for (auto& s : sum_) s.resize(n);
+  for (auto& x : position_) x.resize(all);
+  for (auto& v : velocity_) v.resize(all);
+  for (auto& s : stress_) s.resize(all);
+  for (auto* numbers : {&volume_, &density_, &sound_, &pressure_}) numbers->resize(all);
+  weight_.resize(static_cast<std::size_t>(runs_.weights / PairRuns::widest));
+  artificial_stress_.assign(all, Eigen::Vector3d::Zero());
+}
+
+void PaperDynamics::connect_arrays() {
+  PaperArrays& c = arrays_;
+  c.runs = &runs_;
+  c.smoothing_length = kernel_.h;
+  c.slope = kernel_.alpha / (kernel_.h * kernel_.h);
+  c.viscosity_alpha = viscosity_.alpha, c.viscosity_beta = viscosity_.beta;
+  c.rho_squared = form_.stress_over_rho_squared;
+  for (int k = 0; k < 2; ++k) c.position[k] = position_[k].data(), c.velocity[k] = velocity_[k].data();
+  c.volume = volume_.data(), c.density = density_.data(), c.sound = sound_.data();
+  for (int k = 0; k < 3; ++k) c.stress[k] = stress_[k].data();
+  c.pressure = pressure_.data();
+  for (int k = 0; k < 4; ++k) c.correction[k] = correction_[k].data();
+  for (int k = 0; k < 2; ++k) c.wall_velocity[k] = wall_velocity_[k].data();
+  c.shear_modulus = soil_.shear_modulus.data(), c.bulk_modulus = soil_.bulk_modulus.data();
+  c.no_tension = soil_.no_tension.data();
+  c.one_soil = model_.soils.size() == 1;
+  c.weight = reinterpret_cast<double*>(weight_.data());
+  for (int k = 0; k < PaperArrays::sums; ++k) c.sum[k] = sum_[k].data();
 }
 
 void PaperDynamics::move_ghosts() {
   const auto& position = model_.particles.position;
-  std::copy(position.begin(), position.end(), points_.begin());
-  for (std::size_t i = 0; i < ghosts_.size(); ++i)
-    points_[position.size() + i] = model_.walls[ghosts_[i].wall].mirrored(points_[ghosts_[i].parent]);
+  const std::size_t n = position.size();
+  double *x = position_[0].data(), *y = position_[1].data();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    points_[a] = position[a];
+    x[a] = position[a].x(), y[a] = position[a].y();
+  }
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    const Vec2 ghost = points_[n + i] = model_.walls[ghosts_[i].wall].mirrored(points_[ghosts_[i].parent]);
+    x[n + i] = ghost.x(), y[n + i] = ghost.y();
+  }
 }
 
 void PaperDynamics::make_gradients() {
   const Particles& p = model_.particles;
+  const double *mass = p.mass.data(), *rho = p.density.data(), *shear = soil_.shear_modulus.data();
+  double *volume = volume_.data(), *density = density_.data(), *sound = sound_.data();
+  const bool one_soil = arrays_.one_soil;
+#pragma omp parallel for simd schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
-    volume_[a] = p.volume(a);
-    density_[a] = p.density[a];
-    sound_[a] = std::sqrt(model_.soils[p.soil[a]].shear_modulus / p.density[a]);  // eq. (16)
+    volume[a] = mass[a] / rho[a];
+    density[a] = rho[a];
+    sound[a] = std::sqrt(shear[one_soil ? 0 : a] / rho[a]);  // eq. (16)
   }
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
     volume_[ghost] = volume_[parent], density_[ghost] = density_[parent], sound_[ghost] = sound_[parent];
   }
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < p.size(); ++a) make_gradients_of(a);
+  for (std::int32_t run = 0; run < runs_.count(); ++run) {
+    kernels_.geometry(arrays_, run);
+    for (std::int32_t a = runs_.runs[run].first; a < runs_.runs[run].last; ++a) correct(a);
+  }
   ++counts.refreshes;
 }
 
-/// Uncorrected G_ab of a particle at `here`; returns sum_b G_ab (x) (x_b - x_a).
-Mat2 PaperDynamics::raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points,
-                                  const double* volumes, PairGradient* gradient) const {
-  const CubicSpline<2> kernel = kernel_;
-  const double* coordinates = points->data();
-  const double ax = here.x(), ay = here.y();
-  const std::int32_t* neighbour = index.data();
-  const auto count = static_cast<std::int64_t>(index.size());
-  double xx = 0, xy = 0, yy = 0;
-#pragma omp simd reduction(+ : xx, xy, yy)
-  for (std::int64_t k = 0; k < count; ++k) {
-    const std::int64_t b = neighbour[k];
-    const double dx = coordinates[2 * b] - ax, dy = coordinates[2 * b + 1] - ay;
-    const double weight = -volumes[b] * kernel.slope(std::sqrt(dx * dx + dy * dy));
-    gradient[k].x = weight * dx, gradient[k].y = weight * dy;
-    xx += weight * dx * dx, xy += weight * dx * dy, yy += weight * dy * dy;
-  }
-  return (Mat2() << xx, xy, xy, yy).finished();
+/// L of eq. (10) and the sums of the corrected gradients.
+void PaperDynamics::correct(std::size_t a) {
+  const bool at_wall = wall_neighbours_.begin[a] < wall_neighbours_.begin[a + 1];
+  const double xy = sum_[PaperArrays::moment_xy][a];
+  Mat2 moment =
+      (Mat2() << sum_[PaperArrays::moment_xx][a], xy, xy, sum_[PaperArrays::moment_yy][a]).finished();
+  if (at_wall) moment += make_wall_gradients(a);
+  const Mat2 l = formulation_.kernel_correction ? correction_matrix(moment) : Mat2(Mat2::Identity());
+  correction_[0][a] = l(0, 0), correction_[1][a] = l(0, 1);
+  correction_[2][a] = l(1, 0), correction_[3][a] = l(1, 1);
+  gradient_sum_[a] = corrected(a, PaperArrays::gradient_x, PaperArrays::gradient_y);
+  if (at_wall) sum_wall_gradients(a);
 }
 
-/// G_ab of all pairs of particle a, corrected by L of eq. (10), and their sums.
-void PaperDynamics::make_gradients_of(std::size_t a) {
-  const Vec2 here = points_[a];
-  const std::int64_t first = neighbours_.begin[a], last = neighbours_.begin[a + 1];
-  const std::int64_t wall_first = wall_neighbours_.begin[a], wall_last = wall_neighbours_.begin[a + 1];
-  Mat2 sum = raw_gradients(here, neighbours_.of(a), points_.data(), volume_.data(), gradient_.data() + first);
-  if (wall_first < wall_last)
-    sum += raw_gradients(here, wall_neighbours_.of(a), virtual_points_.data(), virtual_volume_.data(),
-                         wall_gradient_.data() + wall_first);
-  const Mat2 correction = formulation_.kernel_correction ? correction_matrix(sum) : Mat2(Mat2::Identity());
-
-  const double cxx = correction(0, 0), cxy = correction(0, 1), cyx = correction(1, 0), cyy = correction(1, 1);
-  PairGradient* gradient = gradient_.data();
-  double total_x = 0, total_y = 0;
-#pragma omp simd reduction(+ : total_x, total_y)
-  for (std::int64_t k = first; k < last; ++k) {
-    const double gx = cxx * gradient[k].x + cxy * gradient[k].y,
-                 gy = cyx * gradient[k].x + cyy * gradient[k].y;
-    gradient[k].x = gx, gradient[k].y = gy;
-    total_x += gx, total_y += gy;
+/// Uncorrected gradients of the pairs with virtual particles; returns sum g (x) (x_b - x_a).
+Mat2 PaperDynamics::make_wall_gradients(std::size_t a) {
+  Mat2 moment = Mat2::Zero();
+  for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
+    const std::int32_t b = wall_neighbours_.index[k];
+    const Vec2 to_b = virtual_points_[b] - points_[a];
+    wall_gradient_[k] = -virtual_volume_[b] * kernel_.slope(to_b.norm()) * to_b;
+    moment += wall_gradient_[k] * to_b.transpose();
   }
-  gradient_sum_[a] = Vec2(total_x, total_y);
-  wall_sums_[a] = {};
-  if (wall_first == wall_last) return;
+  return moment;
+}
 
+void PaperDynamics::sum_wall_gradients(std::size_t a) {
   WallSums walls;
-  for (std::int64_t k = wall_first; k < wall_last; ++k) {
+  Vec2 velocity = Vec2::Zero();
+  for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
     const std::int32_t b = wall_neighbours_.index[k];
     const Wall& wall = model_.walls[virtual_wall_[b]];
-    const Vec2 g = correction * Vec2(wall_gradient_[k].x, wall_gradient_[k].y);
-    wall_gradient_[k] = {g.x(), g.y()};
-    const double mine = wall.distance(here), its = -wall.distance(virtual_points_[b]);
+    const Vec2 g = corrected(a, wall_gradient_[k]);
+    wall_gradient_[k] = g;
+    const double mine = wall.distance(points_[a]), its = -wall.distance(virtual_points_[b]);
     stickiness_[k] = 1 + (its < 0.5 * mine ? its / mine : 0.5);
     walls.gradient += g;
-    walls.velocity += stickiness_[k] * g;
+    velocity += stickiness_[k] * g;
     walls.pressure += virtual_pressure_[b] * g;
   }
   wall_sums_[a] = walls;
+  wall_velocity_[0][a] = velocity.x(), wall_velocity_[1][a] = velocity.y();
+}
+
+/// L of particle a times a vector.
+Vec2 PaperDynamics::corrected(std::size_t a, const Vec2& v) const {
+  return {correction_[0][a] * v.x() + correction_[1][a] * v.y(),
+          correction_[2][a] * v.x() + correction_[3][a] * v.y()};
+}
+
+/// The same of the vector whose components are these sums.
+Vec2 PaperDynamics::corrected(std::size_t a, int x, int y) const {
+  return corrected(a, Vec2(sum_[x][a], sum_[y][a]));
 }
 
 void PaperDynamics::fill_ghost_velocities() {
   const auto& v = model_.particles.velocity;
-  std::copy(v.begin(), v.end(), velocities_.begin());
-  for (std::size_t i = 0; i < ghosts_.size(); ++i)
-    velocities_[v.size() + i] = model_.walls[ghosts_[i].wall].reflection() * velocities_[ghosts_[i].parent];
+  double *x = velocity_[0].data(), *y = velocity_[1].data();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < v.size(); ++a) x[a] = v[a].x(), y[a] = v[a].y();
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    const std::size_t ghost = v.size() + i, parent = ghosts_[i].parent;
+    const Vec2 mirrored = model_.walls[ghosts_[i].wall].reflection() * Vec2(x[parent], y[parent]);
+    x[ghost] = mirrored.x(), y[ghost] = mirrored.y();
+  }
 }
 
-void PaperDynamics::fill_records() {
+void PaperDynamics::fill_stress() {
   const Particles& p = model_.particles;
+  double *xx = stress_[0].data(), *yy = stress_[1].data(), *xy = stress_[2].data(),
+         *pressure = pressure_.data();
+  const bool per_density = form_.stress_over_rho_squared;
+#pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
     const Stress& s = p.stress[a];
-    const double scale = form_.stress_over_rho_squared ? 1 / p.density[a] : 1;
-    Lanes& q = records_[a].q;
-    q[s_xx] = s.xx * scale, q[s_yy] = s.yy * scale, q[s_xy] = s.xy * scale;
-    q[pressure] = p.pore_pressure[a];
-    q[density] = p.density[a];
+    const double scale = per_density ? 1 / p.density[a] : 1;
+    xx[a] = s.xx * scale, yy[a] = s.yy * scale, xy[a] = s.xy * scale;
+    pressure[a] = p.pore_pressure[a];
   }
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    Lanes q = records_[ghosts_[i].parent].q;
+    const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
     const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
-    const Mat2 s = r * (Mat2() << q[s_xx], q[s_xy], q[s_xy], q[s_yy]).finished() * r;
-    q[s_xx] = s(0, 0), q[s_yy] = s(1, 1), q[s_xy] = s(0, 1);
-    q[pressure] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[p.size() + i]);
-    records_[p.size() + i].q = q;
+    const Mat2 s = r * (Mat2() << xx[parent], xy[parent], xy[parent], yy[parent]).finished() * r;
+    xx[ghost] = s(0, 0), yy[ghost] = s(1, 1), xy[ghost] = s(0, 1);
+    pressure[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[ghost]);
   }
+  if (per_density) return;
+#pragma omp parallel for simd schedule(static)
+  for (std::size_t i = 0; i < points_.size(); ++i) xx[i] += pressure[i], yy[i] += pressure[i];
 }
 
 void PaperDynamics::fill_artificial_stress() {
   const Particles& p = model_.particles;
   any_tension_ = false;
   if (formulation_.artificial_stress == 0) return;
+  bool any = false;
+#pragma omp parallel for schedule(static) reduction(|| : any)
   for (std::size_t a = 0; a < p.size(); ++a) {
     artificial_stress_[a] = artificial_stress(p.stress[a], p.density[a], formulation_.artificial_stress);
-    any_tension_ = any_tension_ || !artificial_stress_[a].isZero(0);
+    any = any || !artificial_stress_[a].isZero(0);
   }
+  any_tension_ = any;
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     const Eigen::Vector3d& parent = artificial_stress_[ghosts_[i].parent];
     const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
@@ -215,70 +262,42 @@ void PaperDynamics::fill_artificial_stress() {
 
 /// The sums of eqs. (17), (24) and (25) without C_ab.
 Vec2 PaperDynamics::stress_and_pressure(std::size_t a) const {
-  const Record* records = records_.data();
-  const std::int32_t* index = neighbours_.index.data();
-  const PairGradient* gradient = gradient_.data();
-  const std::int64_t last = neighbours_.begin[a + 1];
-  PairSums sums, sums2;  // two of each: an addition need not wait for the one before
-  std::int64_t k = neighbours_.begin[a];
-  for (; k + 1 < last; k += 2) {
-    const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
-    sums.x += q * gradient[k].x, sums2.x += q2 * gradient[k + 1].x;
-    sums.y += q * gradient[k].y, sums2.y += q2 * gradient[k + 1].y;
-  }
-  if (k < last) sums.x += records[index[k]].q * gradient[k].x, sums.y += records[index[k]].q * gradient[k].y;
-  sums.x += sums2.x, sums.y += sums2.y;
+  using Sums = PaperArrays;
   const Particles& p = model_.particles;
   const double rho = p.density[a];
   const Mat2 stress = p.stress[a].in_plane();
   const WallSums& walls = wall_sums_[a];
-  const Vec2 others(sums.x[s_xx] + sums.y[s_xy], sums.x[s_xy] + sums.y[s_yy]);
+  const Vec2 of_xx = corrected(a, Sums::xx_x, Sums::xx_y), of_xy = corrected(a, Sums::xy_x, Sums::xy_y),
+             of_yy = corrected(a, Sums::yy_x, Sums::yy_y);
+  const Vec2 others(of_xx.x() + of_xy.y(), of_xy.x() + of_yy.y());
   const Vec2 all = gradient_sum_[a] + walls.gradient;
-  const Vec2 pressure_sum = Vec2(sums.x[pressure], sums.y[pressure]) + walls.pressure +
-                            form_.own_pressure * p.pore_pressure[a] * all;
+  const Vec2 pressure = walls.pressure + form_.own_pressure * p.pore_pressure[a] * all;
 
   if (!form_.stress_over_rho_squared)
-    return (others + stress * (gradient_sum_[a] + 2 * walls.gradient) + pressure_sum) / rho;
-  const Vec2 weighted(sums.x[density], sums.y[density]);
-  return others + stress * weighted / (rho * rho) + (2 * stress * walls.gradient + pressure_sum) / rho;
+    return (others + stress * (gradient_sum_[a] + 2 * walls.gradient) + pressure) / rho;
+  const Vec2 of_pressure = corrected(a, Sums::pressure_x, Sums::pressure_y),
+             of_density = corrected(a, Sums::density_x, Sums::density_y);
+  return others + stress * of_density / (rho * rho) +
+         (2 * stress * walls.gradient + of_pressure + pressure) / rho;
 }
 
 /// sum_b m_b C_ab grad W_ab over particles and ghosts: artificial viscosity.
 Vec2 PaperDynamics::viscous(std::size_t a) const {
-  const ArtificialViscosity viscosity = viscosity_;
-  const double* x = points_[0].data();
-  const double* v = velocities_[0].data();
-  const std::int32_t* index = neighbours_.index.data();
-  const PairGradient* gradient = gradient_.data();
-  const double *density = density_.data(), *sound = sound_.data();
-  const double ax = points_[a].x(), ay = points_[a].y(), avx = velocities_[a].x(), avy = velocities_[a].y();
-  const double rho_a = density[a], c_a = sound[a], h = kernel_.h;
-  double force_x = 0, force_y = 0;
-#pragma omp simd reduction(+ : force_x, force_y)
-  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-    const std::int64_t b = index[k];
-    const double dx = ax - x[2 * b], dy = ay - x[2 * b + 1];
-    const double vx = (avx - v[2 * b]) * dx + (avy - v[2 * b + 1]) * dy;
-    const double pi =
-        viscosity.pair(vx, dx * dx + dy * dy, h, 0.5 * (c_a + sound[b]), 0.5 * (rho_a + density[b]));
-    force_x -= density[b] * pi * gradient[k].x;
-    force_y -= density[b] * pi * gradient[k].y;
-  }
-  return {force_x, force_y};
+  return -corrected(a, PaperArrays::viscous_x, PaperArrays::viscous_y);
 }
 
 /// The same: artificial stress.
 Vec2 PaperDynamics::tension_control(std::size_t a) const {
   const double at_spacing = kernel_.value(model_.spacing);
   Vec2 force = Vec2::Zero();
-  for (std::int64_t k = neighbours_.begin[a]; k < neighbours_.begin[a + 1]; ++k) {
-    const std::int32_t b = neighbours_.index[k];
+  for (const std::int32_t b : neighbours_.of(a)) {
     const Eigen::Vector3d r = artificial_stress_[a] + artificial_stress_[b];
     if (r.isZero(0)) continue;
-    const PairGradient g = gradient_[k];
-    const double distance = (points_[a] - points_[b]).norm();
+    const Vec2 to_b = points_[b] - points_[a];
+    const double distance = to_b.norm();
+    const Vec2 g = -volume_[b] * kernel_.slope(distance) * corrected(a, to_b);
     const double f = std::pow(kernel_.value(distance) / at_spacing, artificial_exponent_);
-    force += density_[b] * f * Vec2(r[0] * g.x + r[2] * g.y, r[2] * g.x + r[1] * g.y);
+    force += density_[b] * f * Vec2(r[0] * g.x() + r[2] * g.y(), r[2] * g.x() + r[1] * g.y());
   }
   return force;
 }
@@ -290,8 +309,8 @@ Vec2 PaperDynamics::stabilisation_at_walls(std::size_t a) const {
   Vec2 force = Vec2::Zero();
   for (std::int64_t k = wall_neighbours_.begin[a]; k < wall_neighbours_.begin[a + 1]; ++k) {
     const Vec2 x = points_[a] - virtual_points_[wall_neighbours_.index[k]],
-               v = stickiness_[k] * velocities_[a];
-    const Vec2 g(wall_gradient_[k].x, wall_gradient_[k].y);
+               v = stickiness_[k] * model_.particles.velocity[a];
+    const Vec2& g = wall_gradient_[k];
     force -= rho * viscosity_.pair(v.dot(x), x.squaredNorm(), kernel_.h, sound_[a], rho) * g;
     if (!any_tension_) continue;
     const Eigen::Vector3d r = 2 * artificial_stress_[a];
@@ -303,38 +322,39 @@ Vec2 PaperDynamics::stabilisation_at_walls(std::size_t a) const {
 
 void PaperDynamics::accelerations(std::span<Vec2> out) {
   fill_ghost_velocities();
-  fill_records();
+  fill_stress();
   fill_artificial_stress();
   const bool stabilised = viscosity_.active() || any_tension_;
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < model_.particles.size(); ++a) {
-    out[a] = stress_and_pressure(a) + model_.gravity;
-    if (viscosity_.active()) out[a] += viscous(a);
-    if (any_tension_) out[a] += tension_control(a);
-    if (stabilised) out[a] += stabilisation_at_walls(a);
+  for (std::int32_t run = 0; run < runs_.count(); ++run) {
+    kernels_.forces(arrays_, run);
+    for (std::int32_t a = runs_.runs[run].first; a < runs_.runs[run].last; ++a) {
+      out[a] = stress_and_pressure(a) + model_.gravity;
+      if (viscosity_.active()) out[a] += viscous(a);
+      if (any_tension_) out[a] += tension_control(a);
+      if (stabilised) out[a] += stabilisation_at_walls(a);
+    }
   }
 }
 
-/// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
-Mat2 PaperDynamics::velocity_gradient(std::size_t a) const {
-  const Vec2 own = gradient_sum_[a] + wall_sums_[a].velocity;  // what sticks to a wall moves against v_a
-  return velocity_sum(neighbours_, gradient_.data(), velocities_.data(), own, a);
-}
-
 void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
+  using Sums = PaperArrays;
   fill_ghost_velocities();
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < model_.particles.size(); ++a) out[a] = velocity_gradient(a);
+  for (std::int32_t run = 0; run < runs_.count(); ++run) {
+    kernels_.rates(arrays_, run);
+    for (std::int32_t a = runs_.runs[run].first; a < runs_.runs[run].last; ++a)
+      out[a] << sum_[Sums::rate_xx][a], sum_[Sums::rate_xy][a], sum_[Sums::rate_yx][a],
+          sum_[Sums::rate_yy][a];
+  }
 }
 
 void PaperDynamics::strain(double dt) {
   fill_ghost_velocities();
+  arrays_.effective_stress = &model_.particles.stress.data()->xx;
+  arrays_.own_density = model_.particles.density.data();
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < model_.particles.size(); ++a) {
-    const Mat2 gradient = mid_step_gradient(velocity_gradient(a), dt);
-    update_stress(model_, a, gradient, dt);
-    update_density(model_.particles, a, gradient, dt);
-  }
+  for (std::int32_t run = 0; run < runs_.count(); ++run) kernels_.strain(arrays_, run, dt);
 }
 
 /// Neighbours and ghosts are those of the last search; the rest is made anew in every step.

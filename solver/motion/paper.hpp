@@ -1,12 +1,15 @@
 // The paper's motion equations (17), (24), (25) on the present configuration.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/kernel/cubic_spline.hpp"
 #include "solver/motion/dynamics.hpp"
-#include "solver/motion/pair_sums.hpp"
+#include "solver/motion/kernels/paper_kernels.hpp"
+#include "solver/motion/kernels/record.hpp"
 #include "solver/motion/paper_form.hpp"
+#include "solver/motion/soil_arrays.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "solver/stabilisation/artificial_viscosity.hpp"
 
@@ -17,7 +20,7 @@ namespace porosph {
 /// -min(d_b / d_a, 1/2) v_a that makes it stick to the wall (Morris et al. 1997; Bui et al. 2008).
 class PaperDynamics final : public Dynamics {
  public:
-  PaperDynamics(const FormulationCase& formulation, Model& model);
+  PaperDynamics(const FormulationCase& formulation, Model& model, VectorUnits units = vector_units());
 
   void prepare() override;
   void accelerations(std::span<Vec2> out) override;
@@ -28,25 +31,30 @@ class PaperDynamics final : public Dynamics {
  private:
   void make_virtual_particles();
   void search();
+  void make_room();
+  void connect_arrays();
   void move_ghosts();
   void make_gradients();
-  void make_gradients_of(std::size_t a);
-  Mat2 raw_gradients(const Vec2& here, std::span<const std::int32_t> index, const Vec2* points,
-                     const double* volumes, PairGradient* gradient) const;
+  void correct(std::size_t a);
+  Mat2 make_wall_gradients(std::size_t a);
+  void sum_wall_gradients(std::size_t a);
   void fill_ghost_velocities();
-  void fill_records();
+  void fill_stress();
   void fill_artificial_stress();
   Vec2 stress_and_pressure(std::size_t a) const;
   Vec2 viscous(std::size_t a) const;
   Vec2 tension_control(std::size_t a) const;
   Vec2 stabilisation_at_walls(std::size_t a) const;
-  Mat2 velocity_gradient(std::size_t a) const;
+  Vec2 corrected(std::size_t a, const Vec2& v) const;
+  Vec2 corrected(std::size_t a, int x, int y) const;
 
   Model& model_;
   FormulationCase formulation_;
   PaperForm form_;
   ArtificialViscosity viscosity_;
   CubicSpline<2> kernel_;
+  const PaperKernels& kernels_;
+  SoilArrays soil_;
   double skin_;                 ///< neighbours are searched this much beyond the support [m]
   double artificial_exponent_;  ///< n = W(0) / W(dx)
 
@@ -56,21 +64,28 @@ class PaperDynamics final : public Dynamics {
   std::vector<std::int32_t> virtual_wall_;
   std::vector<double> virtual_pressure_;
 
-  std::vector<Vec2> points_, velocities_;         ///< of particles, then ghosts
-  std::vector<double> volume_, density_, sound_;  ///< of particles, then ghosts
+  std::vector<Vec2> points_;  ///< of particles, then ghosts, like these:
+  std::array<std::vector<double>, 2> position_, velocity_;
+  std::array<std::vector<double>, 3> stress_;  ///< as the kernels ask for it
+  std::vector<double> volume_, density_, sound_, pressure_;
   std::vector<Image> ghosts_;
   std::vector<std::int32_t> ghost_root_;  ///< the particle that each ghost stems from
   std::vector<Vec2> searched_;            ///< positions at the last search
   NeighbourList neighbours_, wall_neighbours_;
-  std::vector<PairGradient> gradient_, wall_gradient_;  ///< corrected
-  std::vector<double> stickiness_;                      ///< per wall pair: 1 + min(d_b / d_a, 1/2)
-  std::vector<Vec2> gradient_sum_;                      ///< sum of G_ab over particles and ghosts
+  PairRuns runs_;  ///< of neighbours_
+  PaperArrays arrays_{};
+  std::vector<Record> weight_;  ///< of the runs' pairs; whole cache lines
+  std::array<std::vector<double>, PaperArrays::sums> sum_;
+  std::array<std::vector<double>, 4> correction_;  ///< L
+  std::vector<Vec2> wall_gradient_;                ///< G of each pair with a virtual particle
+  std::vector<double> stickiness_;                 ///< of each of them: 1 + min(d_b / d_a, 1/2)
+  std::vector<Vec2> gradient_sum_;                 ///< sum of G_ab over particles and ghosts
   struct WallSums {
-    Vec2 gradient = Vec2::Zero(), velocity = Vec2::Zero(), pressure = Vec2::Zero();
+    Vec2 gradient = Vec2::Zero(), pressure = Vec2::Zero();
   };
-  std::vector<WallSums> wall_sums_;  ///< sums over virtual neighbours of G, stickiness G, p_b G
-  std::vector<Record> records_;
-  std::vector<Eigen::Vector3d> artificial_stress_;  ///< R, of particles and ghosts
+  std::vector<WallSums> wall_sums_;                   ///< sums over virtual neighbours of G and p_b G
+  std::array<std::vector<double>, 2> wall_velocity_;  ///< of stickiness G
+  std::vector<Eigen::Vector3d> artificial_stress_;    ///< R, of particles and ghosts
   bool any_tension_ = false;
 };
 

@@ -7,19 +7,12 @@
 #include <cmath>
 
 #include "solver/constitutive/linear_elastic.hpp"
+#include "solver/motion/kernels/mid_step.hpp"
+#include "solver/motion/kernels/vectors.hpp"
 #include "solver/stabilisation/bulk_viscosity.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
-
-#if defined(__AVX512F__)
-constexpr int width = 8;
-#elif defined(__AVX__)
-constexpr int width = 4;
-#else
-constexpr int width = 2;
-#endif
-using Vector = double __attribute__((vector_size(8 * width)));
 
 enum : int { xx, xy, yx, yy };
 enum : int { pressure_lane = 4, velocity_lane = 6 };  // the flux comes first
@@ -32,13 +25,6 @@ struct Row {
   double* value = numbers + slack;
   double* of(std::int32_t a, std::int32_t first) { return value + (a - first); }
 };
-
-inline Vector load(const double* p) {
-  Vector v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(double* p, const Vector& v) { __builtin_memcpy(p, &v, sizeof v); }
 
 struct TileRange {
   std::int32_t first, last;
@@ -162,9 +148,7 @@ LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, co
     const double ryx = rate[yx].value[i], ryy = rate[yy].value[i];
     const double mxx = dxx[i] + half * rxx, mxy = dxy[i] + half * rxy;
     const double myx = dyx[i] + half * ryx, myy = dyy[i] + half * ryy;
-    const double scale = 1 / (mxx * myy - mxy * myx);  // mid-step dv/dx = dF/dt F^-1 (Hughes and Winget 1980)
-    const Gradient gradient((rxx * myy - rxy * myx) * scale, (rxy * mxx - rxx * mxy) * scale,
-                            (ryx * myy - ryy * myx) * scale, (ryy * mxx - ryx * mxy) * scale);
+    const Gradient gradient = mid_step_gradient({rxx, rxy, ryx, ryy}, {mxx, mxy, myx, myy});
     const std::int32_t k = one_soil ? 0 : i;
     const LinearElastic material{shear[k], bulk[k], no_tension[k] != 0};
     const Stress s = material.update({stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]},

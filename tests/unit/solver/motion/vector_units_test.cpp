@@ -4,6 +4,7 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/motion/consistent.hpp"
+#include "solver/motion/paper.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "tests/box_of_soil.hpp"
 
@@ -18,7 +19,8 @@ struct Result {
 
 /// A wet box of 30 x 12 particles, so that there are stretches, their ends and tiles' ends, after a few
 /// steps.
-Result after_steps(VectorUnits units) {
+template <class Form>
+Result after_steps(Motion motion, VectorUnits units) {
   Case scene = box_of_soil(30, 12);
   hold_as_column(scene);
   add_water(scene, 8);
@@ -26,7 +28,10 @@ Result after_steps(VectorUnits units) {
   Particles& p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
     p.velocity[i] = {std::sin(3.0 * p.position[i].y()), std::cos(2.0 * p.position[i].x())};
-  ConsistentDynamics dynamics(default_formulation(Motion::consistent), model, units);
+  FormulationCase formulation = default_formulation(motion);
+  if (motion != Motion::consistent)
+    formulation.artificial_viscosity_alpha = formulation.artificial_viscosity_beta = 0.1;
+  Form dynamics(formulation, model, units);
   Result result{std::vector<Vec2>(p.size()), {}};
   for (int step = 0; step < 5; ++step) {
     dynamics.prepare();
@@ -42,20 +47,17 @@ Result after_steps(VectorUnits units) {
   return result;
 }
 
-}  // namespace
-
-TEST_CASE("all vector units compute the same", "[motion]") {
-  const std::vector<VectorUnits> units = all_vector_units();
-  REQUIRE(units.back() == VectorUnits::portable);
-  const Result plain = after_steps(VectorUnits::portable);
+template <class Form>
+void check_all_units(Motion motion) {
+  const Result plain = after_steps<Form>(motion, VectorUnits::portable);
   double acceleration = 0, stress = 0;
   for (const Vec2& a : plain.accelerations) acceleration = std::max(acceleration, a.norm());
   for (const Stress& s : plain.stress) stress = std::max(stress, std::abs(s.yy));
   REQUIRE(acceleration > 1);
   REQUIRE(stress > 1);
-  for (const VectorUnits u : units) {
+  for (const VectorUnits u : all_vector_units()) {
     INFO(vector_units_name(u));
-    const Result other = after_steps(u);
+    const Result other = after_steps<Form>(motion, u);
     double off_a = 0, off_s = 0;
     for (std::size_t i = 0; i < plain.stress.size(); ++i) {
       off_a = std::max(off_a, (other.accelerations[i] - plain.accelerations[i]).norm());
@@ -64,6 +66,54 @@ TEST_CASE("all vector units compute the same", "[motion]") {
     CHECK(off_a < 1e-11 * acceleration);
     CHECK(off_s < 1e-12 * stress);
   }
+}
+
+}  // namespace
+
+TEST_CASE("all vector units compute the same", "[motion]") {
+  REQUIRE(all_vector_units().back() == VectorUnits::portable);
+  check_all_units<ConsistentDynamics>(Motion::consistent);
+  for (const Motion motion : {Motion::conventional, Motion::proposed, Motion::rho_squared})
+    check_all_units<PaperDynamics>(motion);
+}
+
+TEST_CASE("particles whose lists are alike are summed together, wherever they have moved to", "[motion]") {
+  Case scene = box_of_soil(40, 10);
+  Model model = build_model(scene);
+  const auto shared = [&] {
+    const NeighbourList list =
+        find_neighbours(model.particles.position, model.particles.size(), 2.6 * model.spacing);
+    const PairRuns runs = make_pair_runs(list);
+    std::int32_t next = 0, sharing = 0;
+    std::int64_t weights = 0;
+    for (const PairRuns::Run& run : runs.runs) {
+      CHECK(run.first == next);
+      next = run.last;
+      CHECK(run.last - run.first <= PairRuns::longest);
+      if (run.shared) {
+        CHECK(run.last - run.first >= PairRuns::widest);
+        sharing += run.last - run.first;
+        weights += (run.last - run.first) * (run.pairs_end - run.pairs);
+      }
+      for (std::int32_t a = run.first; a < run.last; ++a) {
+        std::vector<std::int32_t> found;
+        for (std::int32_t k = run.pairs; k < run.pairs_end; ++k) found.push_back(a + runs.offset[k]);
+        for (std::int64_t k = runs.begin[a]; k < runs.begin[a + 1]; ++k)
+          if (runs.index[k] != a) found.push_back(runs.index[k]);
+        CHECK(std::ranges::equal(found, list.of(a)));
+        CHECK((runs.begin[a + 1] - runs.begin[a]) % PairRuns::widest == 0);
+      }
+    }
+    CHECK(next == static_cast<std::int32_t>(model.particles.size()));
+    CHECK(runs.weights >= weights + std::ssize(runs.index));
+    return sharing / static_cast<double>(next);
+  };
+  CHECK(shared() == Approx(0.9));  // all but two at each end of a row
+  for (Vec2& x : model.particles.position)
+    x += 0.02 * model.spacing * Vec2(std::sin(5 * x.y()), std::cos(3 * x.x()));
+  CHECK(shared() == Approx(0.9));
+  std::swap(model.particles.position[0], model.particles.position[200]);
+  CHECK(shared() < 0.9);
 }
 
 TEST_CASE("a lattice shares its stencils, and irregular particles have their own", "[motion]") {
