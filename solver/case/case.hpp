@@ -84,6 +84,7 @@ struct FormulationCase {
   double zero_energy_stiffness = 0;  ///< elastic part of that control: it acts on v + this * c_p / h * u [-]
   double refresh_strain =
       0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
+  bool single_precision = false;  ///< of stored kernel gradients
 };
 
 struct LoadingCase {

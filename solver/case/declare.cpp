@@ -201,6 +201,10 @@ void declare(Fields& f, FormulationCase& c) {
                              "Strain or rotation after which kernel gradients are made anew; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),
            c.refresh_strain, between(0, 0.1));
+  f.flag(key_of_consistent(
+             "single_precision",
+             "Store kernel gradients in single precision: less memory where particles lie irregularly."),
+         c.single_precision);
 }
 
 void declare(Fields& f, LoadingCase& c) {

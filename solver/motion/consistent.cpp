@@ -85,7 +85,7 @@ void ConsistentDynamics::make_gradients() {
   reference_density_ = p.density;
   for (std::size_t a = 0; a < n; ++a) volume_[a] = p.volume(a) / p.fill[a];
   for (std::size_t i = 0; i < images_.size(); ++i) volume_[n + i] = volume_[images_[i].parent];
-  stencils_ = make_pair_stencils(points_, n, volume_, kernel_);
+  stencils_ = make_pair_stencils(points_, n, volume_, kernel_, formulation_.single_precision);
   ++counts.searches;
 }
 

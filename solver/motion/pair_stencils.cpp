@@ -12,10 +12,11 @@ namespace {
 class Builder {
  public:
   Builder(std::span<const Vec2> points, std::size_t count, std::span<const double> volumes,
-          const CubicSpline<2>& kernel)
+          const CubicSpline<2>& kernel, bool single)
       : points_(points),
         volumes_(volumes),
         kernel_(kernel),
+        single_(single),
         count_(static_cast<std::int32_t>(count)),
         list_(find_neighbours(points, count, kernel.support())) {
     double largest = 0;
@@ -59,20 +60,20 @@ class Builder {
   }
 
   /// Writes the particle itself, then its neighbours; `number` is what stands for neighbour b.
-  template <class Number>
-  void write(std::int32_t a, std::int32_t* index, PairGeometry* geometry, Number&& number) const {
+  template <class Real, class Number>
+  void write(std::int32_t a, std::int32_t* index, PairGeometryIn<Real>* geometry, Number&& number) const {
     PairGeometry sum{0, 0, 0};
     std::size_t k = 1;
     for (const std::int32_t b : list_.of(a)) {
       const Vec2 to_b = points_[b] - points_[a];
       const double w = -volumes_[b] * kernel_.slope(to_b.norm());
       index[k] = number(b);
-      geometry[k] = {w * to_b.x(), w * to_b.y(), w};
-      sum.x += geometry[k].x, sum.y += geometry[k].y, sum.w += w;
+      geometry[k] = {static_cast<Real>(w * to_b.x()), static_cast<Real>(w * to_b.y()), static_cast<Real>(w)};
+      sum.x += geometry[k].x, sum.y += geometry[k].y, sum.w += geometry[k].w;
       ++k;
     }
     index[0] = number(a);
-    geometry[0] = sum;
+    geometry[0] = {static_cast<Real>(sum.x), static_cast<Real>(sum.y), static_cast<Real>(sum.w)};
   }
 
   void fill_shared() {
@@ -94,13 +95,20 @@ class Builder {
       stencils_.begin[a + 1] = stencils_.begin[a] + (own ? 1 + std::ssize(list_.of(a)) : 0);
     }
     stencils_.index.resize(static_cast<std::size_t>(stencils_.begin.back()));
-    stencils_.own.resize(stencils_.index.size());
+    if (single_)
+      write_own(stencils_.own_single);
+    else
+      write_own(stencils_.own);
+  }
+
+  template <class Real>
+  void write_own(std::vector<PairGeometryIn<Real>>& own) {
+    own.resize(stencils_.index.size());
 #pragma omp parallel for schedule(static)
     for (std::int32_t a = 0; a < count_; ++a) {
       if (stencils_.stretch_of[a] != PairStencils::own_list) continue;
       const std::int64_t first = stencils_.begin[a];
-      write(a, stencils_.index.data() + first, stencils_.own.data() + first,
-            [](std::int32_t b) { return b; });
+      write(a, stencils_.index.data() + first, own.data() + first, [](std::int32_t b) { return b; });
     }
   }
 
@@ -120,6 +128,7 @@ class Builder {
   std::span<const Vec2> points_;
   std::span<const double> volumes_;
   CubicSpline<2> kernel_;
+  bool single_;
   std::int32_t count_;
   NeighbourList list_;
   double rounding_ = 0;  ///< of a difference of coordinates [m]
@@ -136,8 +145,8 @@ bool PairStencils::are_neighbours(std::int32_t a, std::int32_t b) const {
 }
 
 PairStencils make_pair_stencils(std::span<const Vec2> points, std::size_t count,
-                                std::span<const double> volumes, const CubicSpline<2>& kernel) {
-  return Builder(points, count, volumes, kernel).build();
+                                std::span<const double> volumes, const CubicSpline<2>& kernel, bool single) {
+  return Builder(points, count, volumes, kernel, single).build();
 }
 
 }  // namespace porosph

@@ -11,10 +11,13 @@
 namespace porosph {
 
 /// What a pair's sums need: G = V_b grad_a W_ab = w (x_b - x_a).
-struct PairGeometry {
-  double x, y;  ///< G [1/m]
-  double w;     ///< [1/m2]
+template <class Real>
+struct PairGeometryIn {
+  Real x, y;  ///< G [1/m]
+  Real w;     ///< [1/m2]
 };
+using PairGeometry = PairGeometryIn<double>;
+using SinglePairGeometry = PairGeometryIn<float>;
 
 /// Stencils of the first particles of a set of points. In a lattice a particle's neighbourhood is that of the
 /// particle before it, shifted by one. Stretches of such particles share one stencil, and their sums run over
@@ -35,9 +38,10 @@ struct PairStencils {
   std::vector<PairGeometry> shared;      ///< beside offset
   std::vector<std::int32_t> stretch_of;  ///< of each particle, or own_list
 
-  std::vector<std::int64_t> begin;  ///< of each particle's own list; nothing where it shares one
-  std::vector<std::int32_t> index;  ///< of own lists: the neighbour's number
-  std::vector<PairGeometry> own;    ///< beside index
+  std::vector<std::int64_t> begin;             ///< of each particle's own list; nothing where it shares one
+  std::vector<std::int32_t> index;             ///< of own lists: the neighbour's number
+  std::vector<PairGeometry> own;               ///< beside index
+  std::vector<SinglePairGeometry> own_single;  ///< in its place, half the size; sums only to rounding
 
   /// Particles of one tile that are summed alike.
   struct Piece {
@@ -57,14 +61,18 @@ struct PairStencils {
       for (std::int32_t k = stretches[s].pairs + 1; k < stretches[s].pairs_end; ++k)
         use(a + offset[k], shared[k]);
     } else {
-      for (std::int64_t k = begin[a] + 1; k < begin[a + 1]; ++k) use(index[k], own[k]);
+      for (std::int64_t k = begin[a] + 1; k < begin[a + 1]; ++k)
+        use(index[k],
+            own_single.empty() ? own[k] : PairGeometry{own_single[k].x, own_single[k].y, own_single[k].w});
     }
   }
   bool are_neighbours(std::int32_t a, std::int32_t b) const;
 };
 
-/// The stencils of the first `count` points; `volumes` of all points [m2].
+/// The stencils of the first `count` points; `volumes` of all points [m2]. `single`: own lists are stored in
+/// single precision.
 PairStencils make_pair_stencils(std::span<const Vec2> points, std::size_t count,
-                                std::span<const double> volumes, const CubicSpline<2>& kernel);
+                                std::span<const double> volumes, const CubicSpline<2>& kernel,
+                                bool single = false);
 
 }  // namespace porosph

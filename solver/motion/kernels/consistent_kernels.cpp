@@ -14,8 +14,8 @@
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
 
-enum : int { xx, xy, yx, yy };
-enum : int { pressure_lane = 4, velocity_lane = 6 };  // the flux comes first
+constexpr int xx = 0, xy = 1, yx = 2, yy = 3;
+constexpr int pressure_lane = 4, velocity_lane = 6;  // the flux comes first
 
 /// A number of each of a tile's particles. Stretches are summed in whole vectors, which may reach over the
 /// tile's ends.
@@ -66,25 +66,36 @@ void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, s
   });
 }
 
+/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, made anew, so that what
+/// is constant still has no gradient.
+inline PairGeometry sum_of(const PairGeometry* g, std::int64_t first, std::int64_t) { return g[first]; }
+inline PairGeometry sum_of(const SinglePairGeometry* g, std::int64_t first, std::int64_t last) {
+  PairGeometry sum{0, 0, 0};
+  for (std::int64_t k = first + 1; k < last; ++k) sum.x += g[k].x, sum.y += g[k].y, sum.w += g[k].w;
+  return sum;
+}
+
 /// The same of a particle with a list of its own. Two sums of each: an addition need not wait for the one
 /// before.
-inline void own_rates(const ConsistentArrays& c, std::int32_t a, std::int32_t first, Row* out) {
+template <class Real>
+inline void own_rates(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
+                      std::int32_t first, Row* out) {
   const PairStencils& s = *c.stencils;
   const std::int32_t* index = s.index.data();
-  const PairGeometry* g = s.own.data();
   const auto velocity = [&](std::int32_t b) {
     return *reinterpret_cast<const Pair*>(reinterpret_cast<const double*>(c.records + b) + velocity_lane);
   };
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
   const Pair mine = velocity(a);
-  Pair x = -g[k].x * mine, y = -g[k].y * mine, x2{}, y2{};
+  const PairGeometry sum = sum_of(g, k, last);
+  Pair x = -sum.x * mine, y = -sum.y * mine, x2{}, y2{};
   for (++k; k + 1 < last; k += 2) {
     const Pair v = velocity(index[k]), v2 = velocity(index[k + 1]);
-    x += v * g[k].x, x2 += v2 * g[k + 1].x;
-    y += v * g[k].y, y2 += v2 * g[k + 1].y;
+    x += v * double{g[k].x}, x2 += v2 * double{g[k + 1].x};
+    y += v * double{g[k].y}, y2 += v2 * double{g[k + 1].y};
   }
-  if (k < last) x += velocity(index[k]) * g[k].x, y += velocity(index[k]) * g[k].y;
+  if (k < last) x += velocity(index[k]) * double{g[k].x}, y += velocity(index[k]) * double{g[k].y};
   x += x2, y += y2;
   *out[xx].of(a, first) = x[0], *out[xy].of(a, first) = y[0];
   *out[yx].of(a, first) = x[1], *out[yy].of(a, first) = y[1];
@@ -92,11 +103,16 @@ inline void own_rates(const ConsistentArrays& c, std::int32_t a, std::int32_t fi
 
 /// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
 inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
+  const bool single = !c.stencils->own_single.empty();
   for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
     if (piece->stretch != PairStencils::own_list)
       shared_rates(c, *piece, tile.first, rate);
+    else if (single)
+      for (std::int32_t a = piece->first; a < piece->last; ++a)
+        own_rates(c, c.stencils->own_single.data(), a, tile.first, rate);
     else
-      for (std::int32_t a = piece->first; a < piece->last; ++a) own_rates(c, a, tile.first, rate);
+      for (std::int32_t a = piece->first; a < piece->last; ++a)
+        own_rates(c, c.stencils->own.data(), a, tile.first, rate);
   }
   const double *lxx = c.correction[xx] + tile.first, *lxy = c.correction[xy] + tile.first;
   const double *lyx = c.correction[yx] + tile.first, *lyy = c.correction[yy] + tile.first;
@@ -232,24 +248,25 @@ void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, st
 }
 
 /// The same of a particle with a list of its own.
-inline void own_sums(const ConsistentArrays& c, std::int32_t a, std::int32_t first, Row* out) {
+template <class Real>
+inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
+                     std::int32_t first, Row* out) {
   const PairStencils& s = *c.stencils;
   const Record* records = c.records;
   const std::int32_t* index = s.index.data();
-  const PairGeometry* g = s.own.data();
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
-  const PairGeometry sum = g[k];
+  const PairGeometry sum = sum_of(g, k, last);
   Lanes x{}, y{}, w{}, x2{}, y2{}, w2{};
   for (++k; k + 1 < last; k += 2) {
     const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
-    x += q * g[k].x, x2 += q2 * g[k + 1].x;
-    y += q * g[k].y, y2 += q2 * g[k + 1].y;
-    w += q * g[k].w, w2 += q2 * g[k + 1].w;
+    x += q * double{g[k].x}, x2 += q2 * double{g[k + 1].x};
+    y += q * double{g[k].y}, y2 += q2 * double{g[k + 1].y};
+    w += q * double{g[k].w}, w2 += q2 * double{g[k + 1].w};
   }
   if (k < last) {
     const Lanes q = records[index[k]].q;
-    x += q * g[k].x, y += q * g[k].y, w += q * g[k].w;
+    x += q * double{g[k].x}, y += q * double{g[k].y}, w += q * double{g[k].w};
   }
   x += x2, y += y2, w += w2;
   const Lanes own = records[a].q;
@@ -267,11 +284,16 @@ template <bool wet>
 void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out) {
   const TileRange tile = range_of(*c.stencils, number);
   Row sum[4];
+  const bool single = !c.stencils->own_single.empty();
   for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
     if (piece->stretch != PairStencils::own_list)
       shared_sums<wet>(c, *piece, tile.first, sum);
+    else if (single)
+      for (std::int32_t a = piece->first; a < piece->last; ++a)
+        own_sums(c, c.stencils->own_single.data(), a, tile.first, sum);
     else
-      for (std::int32_t a = piece->first; a < piece->last; ++a) own_sums(c, a, tile.first, sum);
+      for (std::int32_t a = piece->first; a < piece->last; ++a)
+        own_sums(c, c.stencils->own.data(), a, tile.first, sum);
   }
   const std::int32_t first = tile.first, count = tile.last - tile.first;
   const double *fxx = c.deformation[xx] + first, *fxy = c.deformation[xy] + first;

@@ -46,7 +46,7 @@ Case unusual_case() {
   c.water.unit_weight = 1e4 / 3;
   c.water.stretches = {{-never, 1, 2}, {1, 3.3, 1.1}, {5, never, -0.7}};
   c.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 5}}, {BoundaryKind::fixed, {8, 0}, {0, 0}}};
-  c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.07, 0.0123};
+  c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.07, 0.0123, true};
   c.loading = {9.8065, true, true, 0.7, 0.001, false, 1.0 / 7};
   c.time = {1.0 / 3, 0.9};
   c.stop = {1e-5, false};

@@ -148,3 +148,31 @@ TEST_CASE("a lattice shares its stencils, and irregular particles have their own
   scene.particles.disorder = 0.2;
   CHECK(shared(scene) == 0);
 }
+
+TEST_CASE("gradients in single precision differ by its rounding, and a constant field still has none",
+          "[motion]") {
+  Case scene = box_of_soil(20, 12);
+  hold_as_column(scene);
+  scene.particles.arrangement = Arrangement::disordered;
+  scene.particles.disorder = 0.2;
+  const auto gradients = [&](bool single, const Mat2& field) {
+    Model model = build_model(scene);
+    Particles& p = model.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = Vec2(3, 5) + field * p.position[i];
+    FormulationCase formulation = default_formulation(Motion::consistent);
+    formulation.single_precision = single;
+    model.walls.clear();
+    ConsistentDynamics dynamics(formulation, model);
+    std::vector<Mat2> result(p.size());
+    dynamics.prepare();
+    dynamics.velocity_gradients(result);
+    return result;
+  };
+  const Mat2 field = (Mat2() << 1, 2, -1, 0.5).finished();
+  double off = 0;
+  for (const Mat2& m : gradients(true, Mat2::Zero())) CHECK(m.norm() < 1e-12);
+  const std::vector<Mat2> exact = gradients(false, field), rounded = gradients(true, field);
+  for (std::size_t i = 0; i < exact.size(); ++i) off = std::max(off, (rounded[i] - exact[i]).norm());
+  CHECK(off < 1e-6);
+  CHECK(off > 0);
+}
