@@ -76,6 +76,10 @@ void ConsistentDynamics::make_images() {
   extrapolated_ = images_.size();
   append_images(walls, bearing, walls.size(), kernel_.support(), points_, images_);
   root_ = roots(images_, model_.particles.size());
+  images_of_images_.clear();
+  for (std::size_t i = 0; i < images_.size(); ++i)
+    if (images_[i].parent >= static_cast<std::int32_t>(model_.particles.size()))
+      images_of_images_.push_back(i);
 }
 
 void ConsistentDynamics::make_gradients() {
@@ -178,6 +182,7 @@ void ConsistentDynamics::make_room() {
   records_.assign(points_.size(), Record{});
   piola_.assign(points_.size(), PlaneTensor{});
   image_positions_.resize(images_.size());
+  stress_gradient_.resize(one_sided_.size());
 }
 
 void ConsistentDynamics::connect_arrays() {
@@ -256,12 +261,12 @@ void ConsistentDynamics::update_velocities() {
     vx[a] = v[a].x(), vy[a] = v[a].y();
     record(a);
   }
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for_images(0, [&](std::size_t i) {
     const std::int32_t parent = images_[i].parent;
     const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(vx[parent], vy[parent]);
     vx[n + i] = mirrored.x(), vy[n + i] = mirrored.y();
     record(n + i);
-  }
+  });
 }
 
 /// v + rate * displacement, which the zero-energy control acts on. Takes the velocities' place in the records
@@ -281,12 +286,12 @@ void ConsistentDynamics::update_motion() {
     my[a] = velocity_[1][a] + zero_energy_rate_ * since.y();
     record(a);
   }
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for_images(0, [&](std::size_t i) {
     const std::int32_t parent = images_[i].parent;
     const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(mx[parent], my[parent]);
     mx[n + i] = mirrored.x(), my[n + i] = mirrored.y();
     record(n + i);
-  }
+  });
 }
 
 void ConsistentDynamics::update_pressures() {
@@ -301,19 +306,19 @@ void ConsistentDynamics::update_pressures() {
     pressure_[a] = p.pore_pressure[a];
     record(a);
   }
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for_images(0, [&](std::size_t i) {
     const std::size_t parent = images_[i].parent;
     const Vec2& from = parent < n ? p.position[parent] : image_positions_[parent - n];
     const Vec2 here = image_positions_[i] = model_.walls[images_[i].wall].mirrored(from);
     pressure_[n + i] = model_.water.pore_pressure_behind_wall(p.position[root_[i]], here);
     record(n + i);
-  }
+  });
 }
 
 /// P behind a bearing wall goes on linearly from the soil in front of it; a roller carries no shear.
 void ConsistentDynamics::extrapolate_stress() {
   const std::size_t n = model_.particles.size();
-  std::vector<std::array<Mat2, 2>> gradients(one_sided_.size());
+#pragma omp parallel for schedule(static)
   for (std::size_t s = 0; s < one_sided_.size(); ++s) {
     const OneSided& stencil = one_sided_[s];
     const Mat2 own = matrix(piola_[stencil.particle]);
@@ -323,10 +328,11 @@ void ConsistentDynamics::extrapolate_stress() {
       along_x += difference * stencil.gradient[k].x();
       along_y += difference * stencil.gradient[k].y();
     }
-    gradients[s] = {along_x, along_y};
+    stress_gradient_[s] = {along_x, along_y};
   }
+#pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < extrapolated_; ++i) {
-    const auto& [along_x, along_y] = gradients[one_sided_of_[i]];
+    const auto& [along_x, along_y] = stress_gradient_[one_sided_of_[i]];
     const Wall& wall = model_.walls[images_[i].wall];
     const Mat2 root = matrix(piola_[root_[i]]);
     const Vec2 way = points_[n + i] - points_[root_[i]];
@@ -348,12 +354,12 @@ void ConsistentDynamics::update_image_fluxes() {
     const Mat2& r = reflection_[images_[i].wall].stress;
     piola_[n + i] = plane_tensor(r * matrix(piola_[images_[i].parent]) * r);
   };
-  for (std::size_t i = extrapolated_; i < images_.size(); ++i) mirror_stress(i);
+  for_images(extrapolated_, mirror_stress);
   extrapolate_stress();
-  for (std::size_t i = extrapolated_; i < images_.size(); ++i)
-    if (images_[i].parent >= static_cast<std::int32_t>(n)) mirror_stress(i);
+  for (const std::size_t i : images_of_images_)
+    if (i >= extrapolated_) mirror_stress(i);
 
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for_images(0, [&](std::size_t i) {
     const auto parent = static_cast<std::size_t>(images_[i].parent);
     const Reflection& wall = reflection_[images_[i].wall];
     const double fill = model_.particles.fill[root_[i]];
@@ -361,10 +367,10 @@ void ConsistentDynamics::update_image_fluxes() {
     const Mat2 flux =
         fill * matrix(piola_[n + i]) * correction(n + i) + wall.velocity * control * wall.stress;
     set(flux_, n + i, flux);
-    if (!listed_[n + i]) continue;
+    if (!listed_[n + i]) return;
     Lanes& q = records_[n + i].q;
     for (int k = 0; k < 4; ++k) q[k] = flux_[k][n + i];
-  }
+  });
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {

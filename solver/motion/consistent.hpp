@@ -58,6 +58,18 @@ class ConsistentDynamics final : public Dynamics {
   void update_flux_records();
   void extrapolate_stress();
 
+  /// Calls use(i) for the images from `first` on: those of particles, on all threads, then those of images,
+  /// which need their parents.
+  template <class Use>
+  void for_images(std::size_t first, Use&& use) {
+    const auto particles = static_cast<std::int32_t>(model_.particles.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = first; i < images_.size(); ++i)
+      if (images_[i].parent < particles) use(i);
+    for (const std::size_t i : images_of_images_)
+      if (i >= first) use(i);
+  }
+
   Mat2 correction(std::size_t i) const { return get(correction_, i); }
   static Mat2 get(const PlaneTensors& t, std::size_t i) {
     return (Mat2() << t[0][i], t[1][i], t[2][i], t[3][i]).finished();
@@ -83,6 +95,7 @@ class ConsistentDynamics final : public Dynamics {
   // mirror it.
   std::vector<Vec2> points_;  ///< particles, then images [m]
   std::vector<Image> images_;
+  std::vector<std::size_t> images_of_images_;
   std::size_t extrapolated_ = 0;  ///< how many images have their stress extrapolated
   PairStencils stencils_;
   PlaneTensors correction_;  ///< L, of particles and images
@@ -106,11 +119,12 @@ class ConsistentDynamics final : public Dynamics {
   std::array<std::vector<double>, 2> velocity_;  ///< of particles and images [m/s]
   std::array<std::vector<double>, 2> motion_;    ///< v + rate * displacement, likewise, where rate is not 0
   std::vector<Record> records_;                  ///< flux, p_w and velocity of those that are listed
-  std::vector<PlaneTensor> piola_;               ///< P of mirrored particles and of images [Pa]
-  std::vector<Vec2> image_positions_;            ///< where the images are now [m]
-  bool wet_ = false;                             ///< dry soil has no pore pressure to look after
-  ConsistentArrays arrays_{};                    ///< all these, as the kernels see them
-  double largest_strain_ = 0;                    ///< |F - I| since the refresh
+  std::vector<std::array<Mat2, 2>> stress_gradient_;  ///< of P along x and y, of each one-sided stencil
+  std::vector<PlaneTensor> piola_;                    ///< P of mirrored particles and of images [Pa]
+  std::vector<Vec2> image_positions_;                 ///< where the images are now [m]
+  bool wet_ = false;                                  ///< dry soil has no pore pressure to look after
+  ConsistentArrays arrays_{};                         ///< all these, as the kernels see them
+  double largest_strain_ = 0;                         ///< |F - I| since the refresh
   double travel_ = 0;  ///< bound on any particle's path since neighbours were looked at [m]
   bool have_reference_ = false;
 };
