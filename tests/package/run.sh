@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/install_packages.sh package
-preset=${POROSPH_PRESET:-portable}
+preset=${POROSPH_PRESET:-release}
 cmake --preset "$preset" > /dev/null
 cmake --build --preset "$preset" -j "$(nproc)"
 rm -rf "build/$preset/packages"
