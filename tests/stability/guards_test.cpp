@@ -115,8 +115,8 @@ TEST_CASE("soil that is turned inside out is named") {
 }
 
 TEST_CASE("particles that are thrown off are named as such, though they end up fast") {
-  const Ending e = run_of(
-      shipped_case("verification/column", {"formulation.motion=conventional", "soil.soil.no_tension=true"}));
+  const Ending e = run_of(shipped_case(
+      "foundation", {"formulation.motion=conventional", "soil.0.no_tension=true", "particles.spacing=0.25"}));
   REQUIRE(e.breakdown);
   CHECK(e.breakdown->cause == Cause::separated);
   CHECK_THAT(e.outcome.message, Contains("have left the soil body") && Contains("formulation.motion"));
