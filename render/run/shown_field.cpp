@@ -60,8 +60,8 @@ std::vector<double> values_of(const Frame& frame, const FieldSelection& selectio
   const auto& names = field.components;
   if (selection.component.empty()) {
     if (width > 1 && names.front() != "X")
-      throw std::runtime_error(fmt::format("field '{0}' is no vector: choose a component, {0}:{1}", field.name,
-                                           fmt::join(names, fmt::format(", {}:", field.name))));
+      throw std::runtime_error(fmt::format("field '{0}' is no vector: choose a component, {0}:{1}",
+                                           field.name, fmt::join(names, fmt::format(", {}:", field.name))));
     return width == 1 ? values : magnitudes(values, width);
   }
   const auto found = std::find(names.begin(), names.end(), selection.component);

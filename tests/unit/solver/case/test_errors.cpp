@@ -65,11 +65,13 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:21:12: key 'output.interval' = 1e-09: makes 1e+09 frames; at most 1e+05"},
       {"end = 1", "end = 1\n[output]\ntimes = [0.5, 2]",
        "box.toml:21:15: key 'output.times[1]' = 2: must be <= time.end = 1 s"},
-      {"end = 1", "end = 1\n[output]\ntimes = [-1]", "box.toml:21:10: key 'output.times[0]' = -1: must be >= 0 and <= 1e+09 s"},
+      {"end = 1", "end = 1\n[output]\ntimes = [-1]",
+       "box.toml:21:10: key 'output.times[0]' = -1: must be >= 0 and <= 1e+09 s"},
       {"end = 1", "end = 1\n[output]\nformat = 'vtx'",
        "box.toml:21:10: key 'output.format' = \"vtx\": must be one of \"vtp\", \"vtu\"; did you mean 'vtp'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['ExcessStress']",
-       "box.toml:21:11: key 'output.fields[0]' = \"ExcessStress\": is the excess over the exact solution: needs 'reference'"},
+       "box.toml:21:11: key 'output.fields[0]' = \"ExcessStress\": is the excess over the exact solution: "
+       "needs 'reference'"},
   }));
   CHECK(errors_of(with(wrong.old_text, wrong.new_text)) == wrong.error);
 }
@@ -98,7 +100,8 @@ TEST_CASE("a wrong key is not blamed on those that depend on it") {
 }
 
 TEST_CASE("water") {
-  CHECK(errors_with("[water]\n") == "box.toml:20:1: key 'water': needs one of 'level', 'stretches' and 'level_over_time'");
+  CHECK(errors_with("[water]\n") ==
+        "box.toml:20:1: key 'water': needs one of 'level', 'stretches' and 'level_over_time'");
   CHECK(errors_with("[water]\nlevel = 1\nstretches = [{level = 1}]\n") ==
         "box.toml:20:1: key 'water': needs one of 'level', 'stretches' and 'level_over_time'");
   CHECK(errors_with("[water]\nstretches = [{x_from = 3, x_to = 2, level = 1}]\n") ==

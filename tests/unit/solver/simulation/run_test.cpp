@@ -60,7 +60,8 @@ TEST_CASE("a damped run stops at equilibrium, at the right stress", "[simulation
   CHECK(outcome.status == RunStatus::equilibrium);
   CHECK_THAT(outcome.message, Catch::Contains("0.001"));
   CHECK(simulation.time() < 5);
-  CHECK(outcome.energy_growth < -0.9);  // damping took the half of the work that is not stored, as much as is stored
+  CHECK(outcome.energy_growth <
+        -0.9);  // damping took the half of the work that is not stored, as much as is stored
   CHECK(simulation.unbalanced_force_ratio() < 1e-3);
   CHECK(simulation.probes()[0].read(simulation.model().particles).stress.yy ==
         Approx(-(20e3 - 9810) * 2).epsilon(0.03));
