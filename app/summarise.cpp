@@ -20,6 +20,7 @@ std::map<std::string, std::string> skipped_work(const Simulation& s) {
   const Dynamics::Counts& counts = s.dynamics().counts;
   std::map<std::string, std::string> skipped;
   if (!c.water.present()) skipped["pore_pressure"] = "the scene is dry";
+  if (c.soils.size() == 1) skipped["moduli_per_particle"] = "there is one soil";
   if (!f.kernel_correction) skipped["kernel_correction"] = "off";
   if (f.artificial_viscosity_alpha == 0 && f.artificial_viscosity_beta == 0)
     skipped["artificial_viscosity"] = "alpha and beta are zero";

@@ -9,8 +9,6 @@
 namespace porosph {
 namespace {
 
-enum : int { pressure_lane = 4, velocity_lane = 6 };  // of a record; the flux comes first
-
 Mat2 matrix(const PlaneTensor& t) { return (Mat2() << t[0], t[1], t[2], t[3]).finished(); }
 PlaneTensor plane_tensor(const Mat2& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
 
@@ -251,22 +249,7 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 /// Velocities of particles and images, beside each other and in the records.
 void ConsistentDynamics::update_velocities() {
   const std::vector<Vec2>& v = model_.particles.velocity;
-  const std::size_t n = v.size();
-  double *vx = velocity_[0].data(), *vy = velocity_[1].data();
-  const auto record = [&](std::size_t i) {
-    if (listed_[i]) records_[i].q[velocity_lane] = vx[i], records_[i].q[velocity_lane + 1] = vy[i];
-  };
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    vx[a] = v[a].x(), vy[a] = v[a].y();
-    record(a);
-  }
-  for_images(0, [&](std::size_t i) {
-    const std::int32_t parent = images_[i].parent;
-    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(vx[parent], vy[parent]);
-    vx[n + i] = mirrored.x(), vy[n + i] = mirrored.y();
-    record(n + i);
-  });
+  spread(velocity_, [&](std::size_t a) { return v[a]; });
 }
 
 /// v + rate * displacement, which the zero-energy control acts on. Takes the velocities' place in the records
@@ -274,23 +257,8 @@ void ConsistentDynamics::update_velocities() {
 void ConsistentDynamics::update_motion() {
   if (zero_energy_rate_ == 0) return;
   const Particles& p = model_.particles;
-  const std::size_t n = p.size();
-  double *mx = motion_[0].data(), *my = motion_[1].data();
-  const auto record = [&](std::size_t i) {
-    if (listed_[i]) records_[i].q[velocity_lane] = mx[i], records_[i].q[velocity_lane + 1] = my[i];
-  };
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    const Vec2 since = p.position[a] - points_[a];
-    mx[a] = velocity_[0][a] + zero_energy_rate_ * since.x();
-    my[a] = velocity_[1][a] + zero_energy_rate_ * since.y();
-    record(a);
-  }
-  for_images(0, [&](std::size_t i) {
-    const std::int32_t parent = images_[i].parent;
-    const Vec2 mirrored = reflection_[images_[i].wall].velocity * Vec2(mx[parent], my[parent]);
-    mx[n + i] = mirrored.x(), my[n + i] = mirrored.y();
-    record(n + i);
+  spread(motion_, [&](std::size_t a) {
+    return Vec2(p.velocity[a] + zero_energy_rate_ * (p.position[a] - points_[a]));
   });
 }
 

@@ -70,6 +70,24 @@ class ConsistentDynamics final : public Dynamics {
       if (i >= first) use(i);
   }
 
+  /// Writes the vector of_particle(a) of each particle, and of their images what moves with it, into `field`
+  /// and the records' velocity lanes.
+  template <class Of>
+  void spread(std::array<std::vector<double>, 2>& field, Of&& of_particle) {
+    double *x = field[0].data(), *y = field[1].data();
+    const auto write = [&](std::size_t i, const Vec2& v) {
+      x[i] = v.x(), y[i] = v.y();
+      if (listed_[i]) records_[i].q[velocity_lane] = v.x(), records_[i].q[velocity_lane + 1] = v.y();
+    };
+    const std::size_t n = model_.particles.size();
+#pragma omp parallel for schedule(static)
+    for (std::size_t a = 0; a < n; ++a) write(a, of_particle(a));
+    for_images(0, [&](std::size_t i) {
+      const std::int32_t parent = images_[i].parent;
+      write(n + i, reflection_[images_[i].wall].velocity * Vec2(x[parent], y[parent]));
+    });
+  }
+
   Mat2 correction(std::size_t i) const { return get(correction_, i); }
   static Mat2 get(const PlaneTensors& t, std::size_t i) {
     return (Mat2() << t[0][i], t[1][i], t[2][i], t[3][i]).finished();

@@ -6,6 +6,7 @@
 #include "solver/motion/dynamics.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/step_by_hand.hpp"
 
 namespace porosph {
 namespace {
@@ -98,22 +99,6 @@ void require_agreement(const oracle::Result& solver, const oracle::Result& oracl
   CHECK(difference(solver.velocity_gradient, oracle.velocity_gradient) < 1e-12);
 }
 
-/// Steps as the integrator takes them, gravity and stress at work.
-void advance(Dynamics& dynamics, Model& model, double dt, int steps) {
-  Particles& p = model.particles;
-  std::vector<Vec2> acceleration(p.size());
-  for (int step = 0; step < steps; ++step) {
-    dynamics.prepare();
-    dynamics.accelerations(acceleration);
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] += dt * acceleration[a];
-      p.position[a] += dt * p.velocity[a];
-      p.pore_pressure[a] = model.water.pore_pressure(p.position[a].x(), p.position[a].y());
-    }
-    dynamics.strain(dt);
-  }
-}
-
 FormulationCase paper_formulation() {
   FormulationCase f;
   f.motion = GENERATE(Motion::conventional, Motion::proposed, Motion::rho_squared);
@@ -158,7 +143,7 @@ TEST_CASE("The paper's forms stay with their equations while particles move and 
   stir(model);
   const Model start = model;
   const auto dynamics = make_dynamics(formulation, model);
-  advance(*dynamics, model, 1e-3, 40);
+  step_by_hand(*dynamics, model, 1e-3, 40);
   require_agreement(solved(*dynamics, model), oracle::paper_form(formulation, start, model));
   CHECK(dynamics->counts.searches > 1);
 }
@@ -186,7 +171,7 @@ TEST_CASE("The consistent form stays with its reference configuration while the 
   const Model start = model;
   const auto dynamics = make_dynamics(formulation, model);
   const double dt = 5e-4;
-  advance(*dynamics, model, dt, 30);
+  step_by_hand(*dynamics, model, dt, 30);
   require_agreement(solved(*dynamics, model), oracle::consistent_form(formulation, start, start, model, dt));
   CHECK(dynamics->counts.refreshes == 1);
   double deformed = 0;
@@ -204,7 +189,7 @@ TEST_CASE("The consistent form takes its reference anew in every step where no s
   stir(model);
   const Model start = model;
   const auto dynamics = make_dynamics(formulation, model);
-  advance(*dynamics, model, 5e-4, 10);
+  step_by_hand(*dynamics, model, 5e-4, 10);
   require_agreement(solved(*dynamics, model), oracle::consistent_form(formulation, start, model, model, 0));
 }
 

@@ -15,7 +15,6 @@ namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
 
 constexpr int xx = 0, xy = 1, yx = 2, yy = 3;
-constexpr int pressure_lane = 4, velocity_lane = 6;  // the flux comes first
 
 /// A number of each of a tile's particles. Stretches are summed in whole vectors, which may reach over the
 /// tile's ends.

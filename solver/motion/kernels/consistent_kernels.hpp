@@ -9,6 +9,8 @@
 
 namespace porosph {
 
+constexpr int pressure_lane = 4, velocity_lane = 6;  ///< of a record; the flux comes first
+
 /// All that the loops read and write. Arrays are per particle unless they say "and image": those go on with
 /// the images. Tensors of the plane come as xx, xy, yx, yy.
 struct ConsistentArrays {

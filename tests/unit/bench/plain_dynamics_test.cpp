@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/box_of_soil.hpp"
+#include "tests/step_by_hand.hpp"
 
 using namespace porosph;
 
@@ -46,20 +47,10 @@ void stir(Particles& p) {
   }
 }
 
-/// Steps as the integrator takes them; neighbours change meanwhile.
-std::vector<Vec2> advance(Dynamics& dynamics, Model& model, int steps) {
-  const double dt = 1e-3;
-  Particles& p = model.particles;
-  std::vector<Vec2> acceleration(p.size());
-  for (int step = 0; step < steps; ++step) {
-    dynamics.prepare();
-    dynamics.accelerations(acceleration);
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] += dt * acceleration[a];
-      p.position[a] += dt * p.velocity[a];
-    }
-    dynamics.strain(dt);
-  }
+/// Accelerations after steps in which neighbours change.
+std::vector<Vec2> stepped(Dynamics& dynamics, Model& model) {
+  step_by_hand(dynamics, model, 1e-3, 40);
+  std::vector<Vec2> acceleration(model.particles.size());
   dynamics.prepare();
   dynamics.accelerations(acceleration);
   return acceleration;
@@ -78,7 +69,7 @@ TEST_CASE("The plain loops compute what the solver's proposed form does") {
   Model plain_model = fast_model;
   const auto fast = make_dynamics(formulation, fast_model);
   bench::PlainDynamics plain(formulation, plain_model);
-  const std::vector<Vec2> a = advance(*fast, fast_model, 40), b = advance(plain, plain_model, 40);
+  const std::vector<Vec2> a = stepped(*fast, fast_model), b = stepped(plain, plain_model);
   std::vector<Mat2> fast_gradients(a.size()), plain_gradients(a.size());
   fast->velocity_gradients(fast_gradients);
   plain.velocity_gradients(plain_gradients);

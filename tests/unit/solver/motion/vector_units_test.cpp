@@ -7,6 +7,7 @@
 #include "solver/motion/paper.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "tests/box_of_soil.hpp"
+#include "tests/step_by_hand.hpp"
 
 using namespace porosph;
 
@@ -33,16 +34,9 @@ Result after_steps(Motion motion, VectorUnits units) {
     formulation.artificial_viscosity_alpha = formulation.artificial_viscosity_beta = 0.1;
   Form dynamics(formulation, model, units);
   Result result{std::vector<Vec2>(p.size()), {}};
-  for (int step = 0; step < 5; ++step) {
-    dynamics.prepare();
-    dynamics.accelerations(result.accelerations);
-    const double dt = 1e-4;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      p.velocity[i] += dt * result.accelerations[i];
-      p.position[i] += dt * p.velocity[i];
-    }
-    dynamics.strain(dt);
-  }
+  step_by_hand(dynamics, model, 1e-4, 5);
+  dynamics.prepare();
+  dynamics.accelerations(result.accelerations);
   result.stress = p.stress;
   return result;
 }
