@@ -1,7 +1,7 @@
 // How far a run at rest is from finite elements.
 #pragma once
 
-#include "solver/sweep/verdict.hpp"
+#include "solver/sweep/judge.hpp"
 
 namespace porosph {
 

@@ -1,6 +1,11 @@
 // The pictures and the page of sweeps.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "solver/sweep/sweep.hpp"
 #include "solver/sweep/verdict.hpp"
 
 namespace porosph {

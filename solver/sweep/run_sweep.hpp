@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "solver/sweep/verdict.hpp"
+#include "solver/sweep/judge.hpp"
 
 namespace porosph {
 

@@ -6,6 +6,7 @@
 #include "vtk_io/run_folder/file_errors.hpp"
 #include "vtk_io/run_folder/history_csv.hpp"
 #include "vtk_io/run_folder/summary_json.hpp"
+#include "vtk_io/run_folder/verdict_table.hpp"
 
 namespace {
 
@@ -36,6 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const porosph::MemoryFile file(data, size);
   read([&] { porosph::read_history(file.path()); });
   read([&] { porosph::read_summary(file.path()); });
+  read([&] { porosph::read_verdicts(file.path()); });
   read([&] { porosph::read_checkpoint(file.path(), "title = \"Seed\"\n"); });
   read_state({reinterpret_cast<const char*>(data), size});
   return 0;

@@ -2,6 +2,7 @@
 #include <vtkObject.h>
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "tests/fuzz/memory_file.hpp"
 #include "vtk_io/particle_data.hpp"
@@ -10,12 +11,20 @@
 
 using namespace porosph;
 
+namespace {
+
+bool leaves_folder(const std::string& name) {
+  return !(std::filesystem::path("/folder") / name).lexically_normal().string().starts_with("/folder/");
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   vtkObject::GlobalWarningDisplayOff();
   const MemoryFile file(data, size);
   try {
     for (const SeriesFrame& frame : read_pvd(file.path()))
-      if (frame.file.starts_with('/') || frame.file.find("../") != std::string::npos) std::abort();
+      if (leaves_folder(frame.file)) std::abort();
   } catch (const ReadError&) {
   }
   try {

@@ -38,19 +38,16 @@ class RowParser {
   RowParser(const std::filesystem::path& file, std::size_t line) : file_(file), line_(line) {}
 
   VerdictRow parse(const std::string& text) const {
-    // Quotes and backslashes cannot occur in a field, so nothing is escaped.
-    const boost::escaped_list_separator<char> separator('\0', ',', '"');
-    const boost::tokenizer<boost::escaped_list_separator<char>> tokens(text, separator);
-    const std::vector<std::string> f(tokens.begin(), tokens.end());
+    const std::vector<std::string> f = fields(text);
     if (f.size() != columns) fail(fmt::format("has {} fields instead of {}", f.size(), columns));
     VerdictRow row{f[0], f[1], f[9], {}};
     row.verdict = {.outcome = parsed_class(f[2]),
                    .cause = f[3],
-                   .time = parsed(f[4]),
-                   .steps = static_cast<std::int64_t>(parsed(f[5])),
-                   .error = parsed(f[6]),
-                   .unbalanced = parsed(f[7]),
-                   .energy_growth = parsed(f[8]),
+                   .time = parsed_or_none(f[4]),
+                   .steps = parsed<std::int64_t>(f[5]),
+                   .error = parsed_or_none(f[6]),
+                   .unbalanced = parsed_or_none(f[7]),
+                   .energy_growth = parsed_or_none(f[8]),
                    .message = f[10]};
     return row;
   }
@@ -59,13 +56,26 @@ class RowParser {
   [[noreturn]] void fail(const std::string& what) const {
     throw ReadError(file_, fmt::format("line {}: {}", line_, what));
   }
-  double parsed(const std::string& text) const {
-    if (text.empty()) return std::nan("");
-    double value = 0;
+  std::vector<std::string> fields(const std::string& text) const {
+    // Quotes and backslashes cannot occur in a field, so nothing is escaped.
+    const boost::escaped_list_separator<char> separator('\0', ',', '"');
+    try {
+      const boost::tokenizer<boost::escaped_list_separator<char>> tokens(text, separator);
+      return {tokens.begin(), tokens.end()};
+    } catch (const boost::escaped_list_error&) {
+      fail("has a zero byte");
+    }
+  }
+  template <class Number>
+  Number parsed(const std::string& text) const {
+    Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size())
       fail(fmt::format("'{}' is no number", text));
     return value;
+  }
+  double parsed_or_none(const std::string& text) const {
+    return text.empty() ? std::nan("") : parsed<double>(text);
   }
   StabilityClass parsed_class(const std::string& name) const {
     for (int c = 0; c < stability_classes; ++c)

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "solver/sweep/verdict.hpp"
 #include "vtk_io/run_folder/descriptor.hpp"

@@ -55,6 +55,10 @@ TEST_CASE("a torn last verdict is left out, a wrong one is named with its line")
   CHECK(read_verdicts(folder / "torn.csv").size() == 1);
   put(folder / "wrong.csv", text + "a,b,c\n");
   CHECK_THROWS_WITH(read_verdicts(folder / "wrong.csv"), Contains("line 4") && Contains("3 fields"));
+  put(folder / "zero.csv", text + "a,b" + '\0' + "\n");
+  CHECK_THROWS_WITH(read_verdicts(folder / "zero.csv"), Contains("line 4") && Contains("zero byte"));
+  put(folder / "large.csv", text + "a,b,accurate,,1,1e99,0,0,0,f,\n");
+  CHECK_THROWS_WITH(read_verdicts(folder / "large.csv"), Contains("'1e99' is no number"));
   put(folder / "other.csv", "time,A\n");
   CHECK_THROWS_AS(read_verdicts(folder / "other.csv"), ReadError);
 }
