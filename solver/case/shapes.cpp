@@ -65,7 +65,7 @@ double length_at_a_slit(const Point& a, const Point& b, const BoostPolygon& othe
   if (bg::distance(BoostSegment(boost_point(a), boost_point(b)), other) >= width) return 0;
   const double length = (b - a).norm();
   const double pieces =
-      std::clamp(std::ceil(2 * length / width), 1., 1000.);  // enough to find one on a long edge
+      std::clamp(std::ceil(2 * length / width), 1., 200.);  // enough to find one on a long edge
   const Point outward = Point(a.y() - b.y(), b.x() - a.x()) / length;
   int found = 0;
   for (int k = 0; k < pieces; ++k) {
