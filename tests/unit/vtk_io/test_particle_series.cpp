@@ -1,9 +1,9 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkTypeInt32Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -51,7 +51,7 @@ void check_field(vtkDataArray* array, const FrameField& expected) {
   if (const auto* values = std::get_if<std::vector<double>>(&expected.values)) {
     check_values<vtkDoubleArray>(array, *values);
   } else {
-    check_values<vtkTypeInt32Array>(array, std::get<std::vector<std::int32_t>>(expected.values));
+    check_values<vtkIntArray>(array, std::get<std::vector<std::int32_t>>(expected.values));
   }
 }
 
