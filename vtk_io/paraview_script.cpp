@@ -81,14 +81,45 @@ def show_text(text, view, place, size):
     display.Color = DARK
 
 
-def show_scene(run, view, bounds):
+LEVEL_AT_THE_TIME = """
+import numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkFiltersSources import vtkLineSource
+time = self.GetInputDataObject(0, 0).GetInformation().Get(vtkDataObject.DATA_TIME_STEP())
+level = numpy.interp(time, TIMES, LEVELS)
+line = vtkLineSource()
+line.SetPoint1(X_FROM, level, 0)
+line.SetPoint2(X_TO, level, 0)
+line.Update()
+self.GetOutputDataObject(0).ShallowCopy(line.GetOutput())
+"""
+
+
+def show_water(line, view):
+    display = Show(line, view)
+    display.SetRepresentationType("Surface")
+    display.ColorArrayName = ["POINTS", ""]
+    display.AmbientColor = display.DiffuseColor = WATER
+    display.LineWidth = 3
+    display.RenderLinesAsTubes = 0
+
+
+def level_line(run, reader, x_from, x_to):
+    """The level of water that moves, at the time of the particles that are shown."""
+    times, levels = zip(*run["level_over_time"])
+    script = LEVEL_AT_THE_TIME
+    for name, value in [("TIMES", times), ("LEVELS", levels), ("X_FROM", x_from), ("X_TO", x_to)]:
+        script = script.replace(name, repr(value))
+    return ProgrammableFilter(Input=reader, OutputDataSetType="vtkPolyData", Script=script)
+
+
+def show_scene(run, reader, view, bounds):
     """Water levels and probes, as the case describes them."""
     for x_from, x_to, level in run["water"]:
         ends = [max(x_from, bounds[0]), level, 0.0], [min(x_to, bounds[1]), level, 0.0]
-        line = Show(Line(Point1=ends[0], Point2=ends[1], Resolution=1), view)
-        line.AmbientColor = line.DiffuseColor = WATER
-        line.LineWidth = 3
-        line.RenderLinesAsTubes = 0
+        show_water(Line(Point1=ends[0], Point2=ends[1], Resolution=1), view)
+    if run["level_over_time"]:
+        show_water(level_line(run, reader, bounds[0], bounds[1]), view)
     mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     for name, x, y in run["probes"]:
         probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
@@ -134,7 +165,7 @@ def show_run(run, view):
         bar.Title = " ".join(at) + run["unit"]
         bar.ComponentTitle = ""
         bar.TitleColor = bar.LabelColor = DARK
-    show_scene(run, view, bounds)
+    show_scene(run, reader, view, bounds)
     show_text(run["title"], view, "Upper Center", 16)
     time = Show(AnnotateTimeFilter(Input=reader, Format="t = {time:.3f} s"), view)
     time.WindowLocation = "Upper Left Corner"
@@ -244,7 +275,7 @@ finish(layout)
 }  // namespace
 
 ScriptScene script_scene(const Case& scene) {
-  return {scene.title, scene.particles.spacing, scene.output.boundary, scene.probes, scene.water.stretches};
+  return {scene.title, scene.particles.spacing, scene.output.boundary, scene.probes, scene.water};
 }
 
 std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
@@ -259,12 +290,16 @@ std::string paraview_script(const std::filesystem::path& folder, const std::stri
                         {"unit", unit_of(field)},
                         {"boundary", scene.boundary ? 1 : 0},
                         {"probes", nlohmann::json::array()},
-                        {"water", nlohmann::json::array()}};
+                        {"water", nlohmann::json::array()},
+                        {"level_over_time", nlohmann::json::array()}};
   for (const ProbeCase& probe : scene.probes)
     run["probes"].push_back({probe.name, probe.position.x(), probe.position.y()});
   constexpr double far = 1e30;  // JSON has no infinity; the script cuts lines at the particles
-  for (const WaterStretch& s : scene.water)
-    run["water"].push_back({std::max(s.x_from, -far), std::min(s.x_to, far), s.level});
+  for (const Point& step : scene.water.level_over_time)
+    run["level_over_time"].push_back({step.x(), step.y()});
+  if (run["level_over_time"].empty())
+    for (const WaterStretch& s : scene.water.stretches)
+      run["water"].push_back({std::max(s.x_from, -far), std::min(s.x_to, far), s.level});
   return std::string(open_head) + common + fmt::format(fmt::runtime(open_tail), fmt::arg("run", python(run)));
 }
 
