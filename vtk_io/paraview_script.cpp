@@ -51,7 +51,7 @@ constexpr const char* compare_head =
 # Made for ParaView 5.11 and later.
 )";
 
-constexpr const char* common = R"(
+constexpr const char* common = R"py(
 import ast
 import os
 import sys
@@ -63,6 +63,7 @@ HERE = os.path.dirname(os.path.abspath(SCRIPTS[0])) if SCRIPTS else os.getcwd()
 PICTURES = [a for a in sys.argv[1:] if a.endswith(".png")]
 DARK = [0.15, 0.15, 0.15]
 WATER = [0.12, 0.47, 0.71]
+MOVING_LEVELS = []  # lines at y = 0, and the times and levels that they are moved to
 
 
 def series_path(run):
@@ -81,45 +82,20 @@ def show_text(text, view, place, size):
     display.Color = DARK
 
 
-LEVEL_AT_THE_TIME = """
-import numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkFiltersSources import vtkLineSource
-time = self.GetInputDataObject(0, 0).GetInformation().Get(vtkDataObject.DATA_TIME_STEP())
-level = numpy.interp(time, TIMES, LEVELS)
-line = vtkLineSource()
-line.SetPoint1(X_FROM, level, 0)
-line.SetPoint2(X_TO, level, 0)
-line.Update()
-self.GetOutputDataObject(0).ShallowCopy(line.GetOutput())
-"""
-
-
-def show_water(line, view):
-    display = Show(line, view)
-    display.SetRepresentationType("Surface")
-    display.ColorArrayName = ["POINTS", ""]
+def show_water(x_from, x_to, level, view):
+    display = Show(Line(Point1=[x_from, level, 0.0], Point2=[x_to, level, 0.0], Resolution=1), view)
     display.AmbientColor = display.DiffuseColor = WATER
     display.LineWidth = 3
     display.RenderLinesAsTubes = 0
+    return display
 
 
-def level_line(run, reader, x_from, x_to):
-    """The level of water that moves, at the time of the particles that are shown."""
-    times, levels = zip(*run["level_over_time"])
-    script = LEVEL_AT_THE_TIME
-    for name, value in [("TIMES", times), ("LEVELS", levels), ("X_FROM", x_from), ("X_TO", x_to)]:
-        script = script.replace(name, repr(value))
-    return ProgrammableFilter(Input=reader, OutputDataSetType="vtkPolyData", Script=script)
-
-
-def show_scene(run, reader, view, bounds):
+def show_scene(run, view, bounds):
     """Water levels and probes, as the case describes them."""
     for x_from, x_to, level in run["water"]:
-        ends = [max(x_from, bounds[0]), level, 0.0], [min(x_to, bounds[1]), level, 0.0]
-        show_water(Line(Point1=ends[0], Point2=ends[1], Resolution=1), view)
+        show_water(max(x_from, bounds[0]), min(x_to, bounds[1]), level, view)
     if run["level_over_time"]:
-        show_water(level_line(run, reader, bounds[0], bounds[1]), view)
+        MOVING_LEVELS.append((show_water(bounds[0], bounds[1], 0.0, view), run["level_over_time"]))
     mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     for name, x, y in run["probes"]:
         probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
@@ -150,6 +126,7 @@ def show_run(run, view):
     bounds = information.GetBounds()
     area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
     size = run["spacing"] or (area / max(information.GetNumberOfPoints(), 1)) ** 0.5
+    bounds = [end + (-0.5 if i % 2 == 0 else 0.5) * size for i, end in enumerate(bounds)]
     display.SetRepresentationType("Point Gaussian")
     display.ShaderPreset = "Plain circle"
     if size > 0:
@@ -158,14 +135,17 @@ def show_run(run, view):
         at = [run["field"], run["component"]] if run["component"] else [run["field"]]
         ColorBy(display, ["POINTS"] + at)
         display.SetScalarBarVisibility(view, True)
-        bar = GetScalarBar(GetColorTransferFunction(run["field"]), view)
-        bar.Orientation = "Horizontal"
-        bar.WindowLocation = "Lower Center"
-        bar.ScalarBarLength = 0.5
+        colours = GetColorTransferFunction(run["field"])
+        colours.ApplyPreset("Viridis (matplotlib)", True)
+        bar = GetScalarBar(colours, view)
+        bar.Orientation = "Vertical"
+        bar.WindowLocation = "Any Location"
+        bar.Position = [0.86, 0.2]
+        bar.ScalarBarLength = 0.6
         bar.Title = " ".join(at) + run["unit"]
         bar.ComponentTitle = ""
         bar.TitleColor = bar.LabelColor = DARK
-    show_scene(run, reader, view, bounds)
+    show_scene(run, view, bounds)
     show_text(run["title"], view, "Upper Center", 16)
     time = Show(AnnotateTimeFilter(Input=reader, Format="t = {time:.3f} s"), view)
     time.WindowLocation = "Upper Left Corner"
@@ -175,15 +155,17 @@ def show_run(run, view):
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
+    levels = [level for x_from, x_to, level in run["water"]] + [level for time, level in run["level_over_time"]]
+    bounds[3] = max([bounds[3]] + levels)
     return reader, display, bounds
 
 
 def look_at(view, bounds):
-    """From the front, all of it, with room for the scalar bar below."""
+    """From the front, all of it, with room for the colour bar on the right and text at the top."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     aspect = view.ViewSize[0] / view.ViewSize[1]
-    scale = 0.55 * max(width / aspect, height / 0.65) or 1.0
-    centre = [(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2 - 0.12 * scale]
+    scale = 0.5 * max(width / aspect / 0.78, height / 0.84) or 1.0
+    centre = [(bounds[0] + bounds[1]) / 2 + 0.14 * scale * aspect, (bounds[2] + bounds[3]) / 2 + 0.06 * scale]
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = centre + [0.0]
     view.CameraPosition = centre + [width + height]
@@ -191,9 +173,31 @@ def look_at(view, bounds):
     view.CameraParallelScale = scale
 
 
+def level_at(steps, time):
+    """Linear between the steps, constant before and after."""
+    for (t0, level0), (t1, level1) in zip(steps, steps[1:]):
+        if time < t1:
+            return level0 + (level1 - level0) * max(time - t0, 0.0) / (t1 - t0)
+    return steps[-1][1]
+
+
+def move_levels(animation):
+    """Key frames, so that water that rises and falls stands where it was at the time shown."""
+    start, end = animation.StartTime, animation.EndTime
+    for display, steps in MOVING_LEVELS:
+        display.Position = [0.0, level_at(steps, end), 0.0]
+        if start == end:
+            continue
+        times = [start] + [time for time, level in steps if start < time < end] + [end]
+        track = GetAnimationTrack("Position", index=1, proxy=display)
+        track.KeyFrames = [CompositeKeyFrame(KeyTime=(time - start) / (end - start), KeyValues=[level_at(steps, time)])
+                           for time in times]
+
+
 def to_last_time(readers):
     animation = GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()
+    move_levels(animation)
     times = [t for reader in readers for t in reader.TimestepValues]
     if times:
         animation.AnimationTime = max(times)
@@ -203,9 +207,12 @@ def one_range(displays, field):
     """The colours of all times of all runs; a field that is the same everywhere keeps ParaView's range."""
     if not field:
         return
-    for i, display in enumerate(displays):
-        display.RescaleTransferFunctionToDataRangeOverTime() if i == 0 else (
-            display.RescaleTransferFunctionToDataRange(True, False))
+    colours, ends = GetColorTransferFunction(field), []
+    for display in displays:
+        display.RescaleTransferFunctionToDataRangeOverTime()
+        ends += [colours.RGBPoints[0], colours.RGBPoints[-4]]
+    if min(ends) < max(ends):
+        colours.RescaleTransferFunction(min(ends), max(ends))
 
 
 def start(layout):
@@ -221,7 +228,7 @@ def finish(layout):
         SaveScreenshot(PICTURES[0], layout)
     elif SCRIPTS and sys.argv and sys.argv[0] in SCRIPTS and os.environ.get("DISPLAY"):
         Interact()
-)";
+)py";
 
 constexpr const char* open_tail = R"(
 RUN = {run}
