@@ -62,6 +62,7 @@ SCRIPTS = [s for s in [globals().get("__file__", "")] + sys.argv if s.endswith("
 HERE = os.path.dirname(os.path.abspath(SCRIPTS[0])) if SCRIPTS else os.getcwd()
 PICTURES = [a for a in sys.argv[1:] if a.endswith(".png")]
 DARK = [0.15, 0.15, 0.15]
+WHITE = [1.0, 1.0, 1.0]
 WATER = [0.12, 0.47, 0.71]
 MOVING_LEVELS = []  # lines at y = 0, and the times and levels that they are moved to
 
@@ -98,12 +99,15 @@ def show_scene(run, view, bounds):
         MOVING_LEVELS.append((show_water(bounds[0], bounds[1], 0.0, view), run["level_over_time"]))
     mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     for name, x, y in run["probes"]:
-        probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
-        probe.AmbientColor = probe.DiffuseColor = DARK
+        for radius, depth, colour in [(mark, 0.0, DARK), (0.7 * mark, mark, WHITE)]:
+            probe = Show(Sphere(Center=[x, y, depth], Radius=radius, ThetaResolution=32, PhiResolution=32), view)
+            probe.AmbientColor = probe.DiffuseColor = colour
+            probe.Ambient, probe.Diffuse, probe.Specular = 1.0, 0.0, 0.0
         label = Show(Text(Text=name), view)
         label.TextPropMode = "Billboard 3D Text"
         label.BillboardPosition = [x + mark, y + mark, 2 * mark]
-        label.Color = DARK
+        label.Color = WHITE
+        label.Shadow = 1
         label.FontSize = 16
         label.Bold = 1
 
@@ -139,8 +143,7 @@ def show_run(run, view):
         colours.ApplyPreset("Viridis (matplotlib)", True)
         bar = GetScalarBar(colours, view)
         bar.Orientation = "Vertical"
-        bar.WindowLocation = "Any Location"
-        bar.Position = [0.86, 0.2]
+        bar.WindowLocation = "Lower Right Corner"
         bar.ScalarBarLength = 0.6
         bar.Title = " ".join(at) + run["unit"]
         bar.ComponentTitle = ""
@@ -154,7 +157,7 @@ def show_run(run, view):
     view.InteractionMode = "2D"
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
+    view.Background = WHITE
     levels = [level for x_from, x_to, level in run["water"]] + [level for time, level in run["level_over_time"]]
     bounds[3] = max([bounds[3]] + levels)
     return reader, display, bounds
@@ -162,6 +165,7 @@ def show_run(run, view):
 
 def look_at(view, bounds):
     """From the front, all of it, with room for the colour bar on the right and text at the top."""
+    Render(view)  # the first one of a session would move the camera
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     aspect = view.ViewSize[0] / view.ViewSize[1]
     scale = 0.5 * max(width / aspect / 0.78, height / 0.84) or 1.0
