@@ -3,6 +3,7 @@
 set -euo pipefail
 porosph=$(realpath "$1")
 cd "$(dirname "$0")/../.."
+unset DISPLAY  # nothing shall open on the screen of whoever starts this
 runs=results/paraview
 rm -rf "$runs"
 settings=(--set particles.spacing=0.5 --set time.courant=0.8 --set loading.damping=0.04 --set output.interval=0.5)
