@@ -19,7 +19,7 @@ struct ScriptScene {
   double spacing = 0;     ///< of the particles [m]; 0: estimated by the script
   bool boundary = false;  ///< whether the series has a second block
   std::vector<ProbeCase> probes;
-  std::vector<WaterStretch> water;
+  WaterCase water;
 };
 ScriptScene script_scene(const Case& scene);
 
