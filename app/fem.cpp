@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/results.hpp"
 #include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
@@ -14,6 +15,7 @@
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/fem_vtu.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/folder_lock.hpp"
 
 namespace porosph::app {
 namespace {
@@ -73,7 +75,7 @@ int fem_command(const Arguments& arguments) {
       "edge", po::value(&edge)->value_name("METRES"),
       "length of the triangles' edges far from corners (default: as makes about 1800 triangles)")(
       "set", po::value(&overrides)->value_name("KEY=VALUE"),
-      "replaces a setting of the case; may be given again");
+      "replaces a setting of the case; may be given again")("force", "replace another case's results");
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
@@ -88,9 +90,11 @@ int fem_command(const Arguments& arguments) {
   scene.water = at_rest_from(scene.water, scene.time.end);
   const fs::path folder =
       out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);
+  const std::string case_text = write_case(scene);
+  const FolderLock lock(folder);
+  if (values.count("force") == 0) check_owner(folder, case_text, true);
   const FemSolution solution = solve_fem(scene, mesh_case(scene, edge > 0 ? edge : usual_edge(scene)));
-  make_folder(folder);
-  write_file(folder / "case.toml", write_case(scene));
+  take_folder(folder, case_text);
   write_file(folder / "probes.csv", probe_table(scene, solution));
   write_fem_vtu(solution, folder / "fem.vtu");
   fmt::print("{}: finite elements, results in {}\n", scene.title, folder.string());

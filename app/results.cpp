@@ -32,27 +32,40 @@ bool holds_results(const fs::path& folder) {
          fs::exists(folder / series_name) || has_checkpoint(folder);
 }
 
+bool is_of_another(const fs::path& folder, const std::string& case_text) {
+  const fs::path case_file = folder / case_name;
+  return fs::exists(case_file) ? !is_case(case_file, case_text) : holds_results(folder);
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw WriteError(file, error.message());
+}
+
 void remove_results(const fs::path& folder) {
-  const auto remove = [](const fs::path& file) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error) throw WriteError(file, error.message());
-  };
   remove_checkpoints(folder);
   for (const char* name :
        {summary_name, series_name, "open_in_paraview.py", "compare_in_paraview.py", history_name})
-    remove(folder / name);
+    remove_file(folder / name);
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder / frames_name, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("particles_") || name.starts_with("boundary_")) remove(entry.path());
+    if (name.starts_with("particles_") || name.starts_with("boundary_")) remove_file(entry.path());
   }
 }
 
-/// Takes the folder for this case, empty of results. The case file comes last: what is in the folder is never
-/// that of another.
+/// Of runs and of finite elements.
+void remove_what_is_of_another(const fs::path& folder, const std::string& case_text) {
+  if (!is_of_another(folder, case_text)) return;
+  remove_results(folder);
+  for (const char* name : {"fem.vtu", "probes.csv"}) remove_file(folder / name);
+}
+
+/// Takes the folder for this case, empty of a run's results. The case file comes last: what is in the folder
+/// is never that of another.
 fs::path taken(const fs::path& folder, const std::string& case_text) {
-  make_folder(folder);
+  remove_what_is_of_another(folder, case_text);
   remove_results(folder);
   write_file(folder / case_name, case_text);
   return folder / history_name;
@@ -71,8 +84,7 @@ double time_of(std::int64_t step, const Simulation& s) { return static_cast<doub
 void check_owner(const fs::path& folder, const std::string& case_text, bool resume) {
   std::error_code none;
   if (!fs::is_directory(folder, none)) return;
-  const fs::path case_file = folder / case_name;
-  if (fs::exists(case_file) ? !is_case(case_file, case_text) : holds_results(folder))
+  if (is_of_another(folder, case_text))
     throw UsageError(
         fmt::format("{} holds {} of another case: choose another folder with --out, or give --force to "
                     "replace it",
@@ -81,6 +93,11 @@ void check_owner(const fs::path& folder, const std::string& case_text, bool resu
     throw UsageError(
         fmt::format("{} holds an interrupted run of this case: --resume goes on with it, --force begins anew",
                     folder.string()));
+}
+
+void take_folder(const fs::path& folder, const std::string& case_text) {
+  remove_what_is_of_another(folder, case_text);
+  write_file(folder / case_name, case_text);
 }
 
 std::optional<Summary> finished_summary(const fs::path& folder) {

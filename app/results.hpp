@@ -18,6 +18,10 @@ namespace porosph::app {
 /// case file, or (unless it is resumed) an interrupted run's checkpoint.
 void check_owner(const std::filesystem::path& folder, const std::string& case_text, bool resume);
 
+/// Makes the folder one of this case: removes what is there of another, and writes its case file. Throws
+/// WriteError.
+void take_folder(const std::filesystem::path& folder, const std::string& case_text);
+
 /// How a run of the folder ended, if it is done: neither interrupted nor still to be resumed.
 std::optional<Summary> finished_summary(const std::filesystem::path& folder);
 

@@ -16,6 +16,7 @@
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/run_folder/folder_lock.hpp"
 
 namespace porosph::app {
 namespace {
@@ -150,6 +151,8 @@ int run_command(const Arguments& arguments) {
   std::signal(SIGTERM, catch_signal);
   const Case scene = read_case(options->case_file, options->overrides);
   const std::string case_text = write_case(scene);
+  check_memory(scene);
+  const FolderLock lock(options->folder);
   if (!options->force) check_owner(options->folder, case_text, options->resume);
   if (options->resume) {
     if (const auto done = finished_summary(options->folder)) {
@@ -157,9 +160,9 @@ int run_command(const Arguments& arguments) {
       return exit_of(done->status);
     }
   }
-  check_memory(scene);
   warn_of_known_failures(scene);
   Simulation simulation(scene);
+  warn_of_smaller_steps(simulation);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
       options->resume ? restore(options->folder, case_text, simulation) : std::optional<LeftOff>();

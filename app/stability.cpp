@@ -8,7 +8,7 @@
 #include "app/command.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/sweep/run_sweep.hpp"
-#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/folder_lock.hpp"
 #include "vtk_io/run_folder/verdict_table.hpp"
 #ifdef POROSPH_HAS_VTK
 #include "render/report/stability.hpp"
@@ -150,7 +150,6 @@ class SweepFolder {
 
  private:
   std::vector<VerdictRow> rows_there() {
-    make_folder(table_.parent_path());
     if (options_.restart || !fs::exists(table_)) return {};
     return read_verdicts(table_);
   }
@@ -199,6 +198,7 @@ int stability_command(const Arguments& arguments) {
   if (!options) return Exit::done;
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  const FolderLock lock(options->folder);
 #ifdef POROSPH_HAS_VTK
   std::vector<SweptMap> maps;
 #endif

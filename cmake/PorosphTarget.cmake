@@ -10,6 +10,8 @@ function(porosph_flags target)
     $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wno-restrict>
     $<$<BOOL:${POROSPH_WERROR}>:-Werror>
     $<$<CONFIG:Release>:-O3>
+    $<$<BOOL:${POROSPH_COVERAGE}>:--coverage;-fprofile-update=atomic;-O1>
     -fno-math-errno -fno-trapping-math  # square roots and comparisons in vector code; no result changes
     $<$<BOOL:${POROSPH_NATIVE}>:-march=native>)
+  target_link_options(${target} PUBLIC $<$<BOOL:${POROSPH_COVERAGE}>:--coverage>)
 endfunction()

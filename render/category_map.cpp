@@ -165,10 +165,11 @@ void draw_axes(Canvas& canvas, const CategoryMap& map, const Layout& l) {
 void draw_legend_below(Canvas& canvas, const CategoryMap& map, const Layout& l) {
   const std::vector<std::string> labels = legend_labels(map);
   const double entry = (l.width - 2 * edge) / l.legend_columns;
+  const auto columns = static_cast<std::size_t>(l.legend_columns);
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const double x = edge + entry * static_cast<double>(i % static_cast<std::size_t>(l.legend_columns));
-    const double y = l.legend_top - 6 -
-                     legend_row * (0.5 + static_cast<double>(i / static_cast<std::size_t>(l.legend_columns)));
+    const std::size_t row = i / columns, column = i % columns;
+    const double x = edge + entry * static_cast<double>(column);
+    const double y = l.legend_top - 6 - legend_row * (0.5 + static_cast<double>(row));
     const Box box{x, y - 0.5 * sample, sample, sample};
     if (i < map.categories.size()) {
       canvas.box(box, {.colour = map.categories[i].colour});

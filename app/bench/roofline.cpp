@@ -17,7 +17,11 @@ using Vector =
     double __attribute__((vector_size(width * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 // One binary for all machines: the compiler makes a version of these functions for each vector unit.
+#ifdef __clang__  // which knows no `noinline` beside it
+#define FOR_EVERY_VECTOR_UNIT __attribute__((target_clones("avx512f", "arch=haswell", "default")))
+#else
 #define FOR_EVERY_VECTOR_UNIT __attribute__((noinline, target_clones("avx512f", "arch=haswell", "default")))
+#endif
 
 /// Sum of `count` numbers, count a multiple of 64: eight sums at a time, as an addition takes its time.
 FOR_EVERY_VECTOR_UNIT double sum_of(const double* numbers, std::size_t count) {

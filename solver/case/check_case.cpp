@@ -14,6 +14,7 @@ namespace {
 
 using Issues = std::vector<CaseIssue>;
 constexpr double most_frames = 1e5;
+constexpr double longest_slit = 3;  // spacings that may be bridged at the tip of a notch
 
 std::string at(std::string_view list, std::size_t i, std::string_view key = "") {
   return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
@@ -53,16 +54,23 @@ void check_soils(const Case& c, Issues& issues) {
                         fmt::format("soil '{}' is {:.4g} m thick, less than particles.spacing = {} m",
                                     c.soils[i].name, width, dx)});
     for (std::size_t j = 0; j < i; ++j) {
-      const double common = overlap(c.soils[i], c.soils[j]);
-      if (common > 1e-6 * dx * dx)
+      const double common = overlap(c.soils[i], c.soils[j]), gap = distance(c.soils[i], c.soils[j]);
+      if (common > 1e-6 * dx * dx) {
         issues.push_back({at("soil", i, "polygon"), fmt::format("soils '{}' and '{}' overlap by {:.4g} m2",
                                                                 c.soils[j].name, c.soils[i].name, common)});
-      const double gap = distance(c.soils[i], c.soils[j]);
-      if (gap > 1e-3 * dx && gap < dx * (1 - 1e-9))
+      } else if (gap > 1e-3 * dx && gap < dx * (1 - 1e-9)) {
         issues.push_back({at("soil", i, "polygon"),
                           fmt::format("soils '{}' and '{}' are {:.4g} m apart, less than particles.spacing = "
                                       "{} m: they must touch, or keep clear of each other",
                                       c.soils[j].name, c.soils[i].name, gap, dx)});
+      } else if (gap <= 1e-3 * dx) {
+        const double slit = slit_length(c.soils, i, j, dx);
+        if (slit > longest_slit * dx)
+          issues.push_back({at("soil", i, "polygon"),
+                            fmt::format("soils '{}' and '{}' leave a slit between them that is narrower than "
+                                        "particles.spacing = {} m over {:.4g} m: close it or widen it",
+                                        c.soils[j].name, c.soils[i].name, dx, slit)});
+      }
     }
   }
 }

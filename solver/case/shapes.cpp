@@ -56,6 +56,31 @@ bool is_flat(const Polygon& p) {
   });
 }
 
+Point point(const BoostPoint& p) { return {p.x(), p.y()}; }
+
+// How much of the segment from a to b looks across less than `width` at `other`, with none of the soils
+// between [m]. What the segment is an outline of lies on its right.
+double length_at_a_slit(const Point& a, const Point& b, const BoostPolygon& other,
+                        const std::vector<BoostPolygon>& soils, double width) {
+  if (bg::distance(BoostSegment(boost_point(a), boost_point(b)), other) >= width) return 0;
+  const double length = (b - a).norm();
+  const double pieces =
+      std::clamp(std::ceil(2 * length / width), 1., 200.);  // enough to find one on a long edge
+  const Point outward = Point(a.y() - b.y(), b.x() - a.x()) / length;
+  int found = 0;
+  for (int k = 0; k < pieces; ++k) {
+    const Point p = a + (b - a) * ((k + 0.5) / pieces);
+    const double gap = bg::distance(boost_point(p), other);
+    if (gap <= 1e-3 * width || gap >= width) continue;
+    const BoostPoint halfway = boost_point(p + 0.5 * gap * outward);
+    const BoostPoint beyond = boost_point(p + 1.1 * gap * outward);  // of an edge askew by up to 24 degrees
+    found += bg::within(beyond, other) && std::none_of(soils.begin(), soils.end(), [&](const auto& soil) {
+               return bg::within(halfway, soil);
+             });
+  }
+  return found * std::min(length / pieces, width / 2);
+}
+
 }  // namespace
 
 std::string outline_fault(const Polygon& outline) {
@@ -112,6 +137,19 @@ double distance(const SoilCase& a, const SoilCase& b) {
 
 double distance(const Point& point, const SoilCase& soil) {
   return bg::distance(boost_point(point), boost_polygon(soil));
+}
+
+double slit_length(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width) {
+  std::vector<BoostPolygon> polygons;
+  for (const SoilCase& soil : soils) polygons.push_back(boost_polygon(soil));
+  double found = 0;
+  const auto look_along = [&](const auto& ring) {
+    for (std::size_t k = 0; k + 1 < ring.size(); ++k)
+      found += length_at_a_slit(point(ring[k]), point(ring[k + 1]), polygons[j], polygons, width);
+  };
+  look_along(polygons[i].outer());
+  for (const auto& hole : polygons[i].inners()) look_along(hole);
+  return found;
 }
 
 std::vector<Point> crossings(const Point& a, const Point& b, const Point& c, const Point& d) {

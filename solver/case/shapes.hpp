@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "solver/case/case.hpp"
 
@@ -19,6 +20,10 @@ double thickness(const Polygon& outline);                   ///< least width of 
 double overlap(const SoilCase& a, const SoilCase& b);       ///< common area [m2]
 double distance(const SoilCase& a, const SoilCase& b);      ///< 0 if they touch or overlap [m]
 double distance(const Point& point, const SoilCase& soil);  ///< 0 inside and on the outline [m]
+
+/// Length along which soils i and j face each other across less than `width` with no soil between [m]: of
+/// cracks and pointed slits; 0 where they touch without one.
+double slit_length(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width);
 
 /// Where two straight segments cross or touch; nothing if they do not or lie in one line.
 std::vector<Point> crossings(const Point& a, const Point& b, const Point& c, const Point& d);

@@ -3,6 +3,8 @@
 
 Usage: error_table.py PROGRAM [--write]      --write makes the document anew
 """
+import fcntl
+import os
 import pathlib
 import shutil
 import subprocess
@@ -73,6 +75,8 @@ OF_THE_GROUND = [
     ("a layer thinner than the spacing", OUTLINE, "[[0, 0], [4, 0], [4, 0.3], [0, 0.3]]"),
     ("soils that overlap", "[[boundary]]", CLAY.replace("4.2", "3") + "[[boundary]]"),
     ("a gap between soils", "[[boundary]]", CLAY + "[[boundary]]"),
+    ("a slit between soils that touch at a point", "[[boundary]]",
+     CLAY.replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[4, 0], [9, 0], [9, 2], [4.3, 2]]") + "[[boundary]]"),
     ("a body that nothing carries", "[[boundary]]", CLAY.replace("4.2", "6") + "[[boundary]]"),
     ("sides that hold, and no bottom", '"fixed"\nfrom = [0, 0]\nto = [4, 0]', '"roller"\nfrom = [0, 0]\nto = [0, 2]'),
     ("a boundary that touches nothing", "to = [4, 0]", "to = [4, -1]"),
@@ -88,11 +92,13 @@ ON_THE_COMMAND_LINE = [
     ("an override of a soil that is not there", "run case.toml --set soil.clay.youngs_modulus=1e6", {}),
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
+    ("finite elements into that folder", "fem case.toml --out other", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
 ]
 WITH_FILES = [
     ("a file in the place of the folder", "run case.toml --out file", {"file": "mine"}),
+    ("a folder that another run is computing into", "run case.toml --out busy", {}),
     ("results of a run are not there", "render nothing --field PorePressure", {}),
     ("a series cut short", "render bad --field PorePressure", {"bad/particles.pvd": "<?xml version=\"1.0\"?>\n<VTKFile"}),
     ("a series of something else", "render bad --field PorePressure", {"bad/particles.pvd": "<VTKFile type=\"ImageData\"/>"}),
@@ -151,6 +157,9 @@ def main():
     (place / "case.toml").write_text(CASE)
     for folder in ("run", "run2", "run3", "run4"):
         subprocess.run([program, "run", "case.toml", "--quiet", "--out", folder], cwd=place, check=True)
+    (place / "busy").mkdir()
+    busy = os.open(place / "busy", os.O_RDONLY)
+    fcntl.flock(busy, fcntl.LOCK_EX)
     page = HEAD + "".join(f"    {line}\n" for line in CASE.splitlines())
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
     page += table("Of the ground", in_a_case(place, program, OF_THE_GROUND))

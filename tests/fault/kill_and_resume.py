@@ -61,16 +61,20 @@ name = "A"
 position = [1, 1]
 """
 
-# "renewed" has a reference that is renewed many times and ends in equilibrium.
+# "renewed" has a reference that is renewed many times and ends in equilibrium, "breakdown" ends unstable.
 VARIANTS = {
     "consistent": [],
     "proposed": ["formulation.motion=proposed", "time.end=6"],
     "conventional": ["formulation.motion=conventional", "time.end=6", "formulation.artificial_stress=0.3",
                      "stop.on_separation=false"],
+    "adaptive": ["loading.damping=adaptive", "time.courant=0.1"],
+    "tide": [],
+    "breakdown": ["formulation.motion=conventional", "time.courant=0.015", "loading.damping=0", "output.interval=0.1"],
     "renewed": ["formulation.refresh_strain=0.002", "stop.unbalanced_force_ratio=0.02", "loading.damping=0.02"],
 }
+TEXTS = {"tide": CASE.replace("level = 2.5", "level_over_time = [[0, 2.5], [4, 3.5], [9, 1]]")}
 TIMES_AND_MEMORY = ("wall_seconds", "stepping_seconds", "particle_steps_per_second", "peak_memory_bytes")
-FINISHED, INTERRUPTED = 0, 130
+DONE, UNSTABLE, INTERRUPTED = 0, 3, 130
 
 
 def command(program, case, folder, settings, resume):
@@ -78,6 +82,10 @@ def command(program, case, folder, settings, resume):
     for setting in settings:
         arguments += ["--set", setting]
     return [str(a) for a in arguments + (["--resume"] if resume else [])]
+
+
+def end_of(name):
+    return UNSTABLE if name == "breakdown" else DONE
 
 
 def content(folder):
@@ -96,7 +104,7 @@ def differences(a, b):
 
 def run_and_stop(arguments, delay, how):
     """Starts a run and stops it after `delay` seconds. Returns its exit status."""
-    process = subprocess.Popen(arguments)
+    process = subprocess.Popen(arguments, stderr=subprocess.DEVNULL)
     try:
         return process.wait(timeout=delay)
     except subprocess.TimeoutExpired:
@@ -112,13 +120,17 @@ def main():
     options = parser.parse_args()
     chance = random.Random(options.seed)
     place = pathlib.Path(tempfile.mkdtemp(prefix="porosph_fault_"))
-    case = place / "case.toml"
-    case.write_text(CASE)
+
+    def command_of(name, folder, resume):
+        return command(options.program, place / f"{name}.toml", folder, VARIANTS[name], resume)
 
     whole, seconds = {}, {}
-    for name, settings in VARIANTS.items():
+    for name in VARIANTS:
+        (place / f"{name}.toml").write_text(TEXTS.get(name, CASE))
         start = time.monotonic()
-        subprocess.run(command(options.program, case, place / name, settings, False), check=True)
+        status = subprocess.run(command_of(name, place / name, False), stderr=subprocess.DEVNULL).returncode
+        if status != end_of(name):
+            sys.exit(f"{name}: exit status {status}")
         seconds[name] = time.monotonic() - start
         whole[name] = content(place / name)
 
@@ -129,15 +141,15 @@ def main():
         name = list(VARIANTS)[round_number % len(VARIANTS)]
         folder, resume = place / f"killed_{round_number}", False
         status = None
-        while status != FINISHED:
+        while status != end_of(name):
             last = kills >= options.kills or (resume and chance.random() < 0.4)
             how = signal.SIGTERM if chance.random() < 0.2 else signal.SIGKILL
             delay = 600 if last else chance.uniform(0, seconds[name])
-            status = run_and_stop(command(options.program, case, folder, VARIANTS[name], resume), delay, how)
+            status = run_and_stop(command_of(name, folder, resume), delay, how)
             if status in (-signal.SIGKILL, -signal.SIGTERM, INTERRUPTED):
                 kills += 1
                 from_checkpoint += (folder / "checkpoint.bin").exists()
-            elif status != FINISHED:
+            elif status != end_of(name):
                 sys.exit(f"round {round_number} ({name}): exit status {status}")
             resume = True
         different = differences(whole[name], content(folder))

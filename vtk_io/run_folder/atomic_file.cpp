@@ -53,10 +53,11 @@ void write_file(const fs::path& file, std::string_view content) {
   });
 }
 
-void make_folder(const fs::path& folder) {
+bool make_folder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool made = fs::create_directories(folder, error);
   if (error) throw WriteError(folder, error.message());
+  return made;
 }
 
 std::string read_file(const fs::path& file) {

@@ -17,8 +17,8 @@ void replace_file(const std::filesystem::path& file,
 /// As replace_file, with these bytes.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// Makes the folder and those above it. Throws WriteError.
-void make_folder(const std::filesystem::path& folder);
+/// Makes the folder and those above it; false if it was there. Throws WriteError.
+bool make_folder(const std::filesystem::path& folder);
 
 /// The whole file. Throws ReadError.
 std::string read_file(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "vtk_io/run_folder/descriptor.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,6 +55,14 @@ long Descriptor::size() const {
 
 void Descriptor::truncate(long size) {
   if (::ftruncate(descriptor_, size) != 0) fail();
+}
+
+bool Descriptor::lock() {
+  int failed = 0;
+  do {
+    failed = ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  } while (failed != 0 && errno == EINTR);
+  return failed == 0 || errno != EWOULDBLOCK;
 }
 
 void Descriptor::fail() const { throw WriteError(blamed_, std::generic_category().message(errno)); }

@@ -18,6 +18,8 @@ class Descriptor {
   void sync();                         ///< to the disk
   long size() const;                   ///< [bytes]; fails for a file that was removed meanwhile
   void truncate(long size);            ///< [bytes]
+  /// Locks the file until this is closed; false where another descriptor has. True where there are no locks.
+  bool lock();
 
  private:
   [[noreturn]] void fail() const;

@@ -140,6 +140,22 @@ TEST_CASE("soils keep clear of each other or touch") {
   CHECK(at_x("4.5").empty());
 }
 
+TEST_CASE("soils that touch at a point leave no slit that particles would bridge") {
+  const auto below = [](const std::string& polygon) {  // the sand's top, y = 2, is 4 m long
+    return errors_with(soil("clay", polygon) + "[loading]\ngravity_applied = false\n");
+  };
+  CHECK(below("[[0, 2], [4, 2.4], [4, 5], [0, 5]]") ==
+        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' leave a slit between them that is "
+        "narrower than particles.spacing = 0.5 m over 4.02 m: close it or widen it");
+  CHECK_THAT(below("[[0, 2], [2, 2.1], [4, 2], [4, 5], [0, 5]]"), Contains("over 4.005 m"));  // a lens
+  CHECK(below("[[0, 2], [4, 4], [4, 5], [0, 5]]").empty());  // 27 degrees: open after two spacings
+  CHECK(below("[[0, 2], [4, 2], [4, 5], [0, 5]]").empty());
+  // Filled by a third soil that tapers off.
+  CHECK(errors_with(soil("silt", "[[0, 2], [4, 2], [4, 2.5]]") +
+                    soil("clay", "[[0, 2], [4, 2.5], [4, 5], [0, 5]]"))
+            .find("slit") == std::string::npos);
+}
+
 TEST_CASE("the number of time steps is bounded") {
   CHECK(
       errors_of(with("youngs_modulus = 1e6", "youngs_modulus = 1e15"), {"time.end=1e9"}) ==
