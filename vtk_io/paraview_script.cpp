@@ -168,8 +168,9 @@ def look_at(view, bounds):
     Render(view)  # the first one of a session would move the camera
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     aspect = view.ViewSize[0] / view.ViewSize[1]
-    scale = 0.5 * max(width / aspect / 0.78, height / 0.84) or 1.0
-    centre = [(bounds[0] + bounds[1]) / 2 + 0.14 * scale * aspect, (bounds[2] + bounds[3]) / 2 + 0.06 * scale]
+    room = min(130 / view.ViewSize[0], 0.45)
+    scale = 0.5 * max(width / aspect / (0.94 - room), height / 0.84) or 1.0
+    centre = [(bounds[0] + bounds[1]) / 2 + room * scale * aspect, (bounds[2] + bounds[3]) / 2 + 0.06 * scale]
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = centre + [0.0]
     view.CameraPosition = centre + [width + height]
@@ -249,11 +250,16 @@ finish(GetLayout(view))
 
 constexpr const char* compare_tail = R"(
 FOLDERS = {folders}
+WRITTEN_IN = {written_in}  # ParaView does not tell a script of --script where it is
 
 
 def run_in(folder):
     """What open_in_paraview.py says of the run in this folder."""
-    folder = os.path.normpath(os.path.join(HERE, folder))
+    places = [os.path.normpath(os.path.join(place, folder)) for place in (HERE, WRITTEN_IN)]
+    found = [place for place in places if os.path.exists(os.path.join(place, "open_in_paraview.py"))]
+    if not found:
+        raise RuntimeError("no run in " + " nor in ".join(places))
+    folder = found[0]
     with open(os.path.join(folder, "open_in_paraview.py")) as script:
         line = next(text for text in script if text.startswith("RUN = "))
     run = ast.literal_eval(line[len("RUN = "):])
@@ -314,10 +320,12 @@ std::string paraview_script(const std::filesystem::path& folder, const std::stri
   return std::string(open_head) + common + fmt::format(fmt::runtime(open_tail), fmt::arg("run", python(run)));
 }
 
-std::string paraview_comparison_script(const std::filesystem::path& a, const std::filesystem::path& b) {
+std::string paraview_comparison_script(const std::filesystem::path& folder, const std::filesystem::path& a,
+                                       const std::filesystem::path& b) {
   return std::string(compare_head) + common +
          fmt::format(fmt::runtime(compare_tail),
-                     fmt::arg("folders", python({a.generic_string(), b.generic_string()})));
+                     fmt::arg("folders", python({a.generic_string(), b.generic_string()})),
+                     fmt::arg("written_in", python(folder.generic_string())));
 }
 
 }  // namespace porosph

@@ -38,7 +38,7 @@ SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
 }
 
 SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions options) {
-  SeriesWriter series(std::move(folder), options);
+  SeriesWriter series(std::move(folder), std::move(options));
   series.frames_ = read_pvd(series.pvd());
   std::erase_if(series.frames_, [&](const SeriesFrame& frame) { return frame.time > time; });
   if (series.frames_.empty() || series.frames_.back().time != time) {
@@ -69,7 +69,7 @@ void SeriesWriter::write(const Frame& frame, const std::optional<Frame>& boundar
     remove_unnamed_frames();
     write_file(folder_ / open_script,
                paraview_script(fs::absolute(folder_), pvd_name, frame, options_.scene));
-    write_file(folder_ / compare_script, paraview_comparison_script(".", ""));
+    write_file(folder_ / compare_script, paraview_comparison_script(fs::absolute(folder_), ".", ""));
   }
 }
 

@@ -70,6 +70,7 @@ TEST_CASE("names are quoted as Python text") {
 }
 
 TEST_CASE("a script of two runs names their folders") {
-  CHECK_THAT(paraview_comparison_script("../a", "../b b"), Contains("\nFOLDERS = [\"../a\",\"../b b\"]\n"));
-  CHECK_THAT(paraview_comparison_script(".", ""), Contains("\nFOLDERS = [\".\",\"\"]\n"));
+  CHECK_THAT(paraview_comparison_script("/runs/c", "../a", "../b b"),
+             Contains("\nFOLDERS = [\"../a\",\"../b b\"]\n") && Contains("\nWRITTEN_IN = \"/runs/c\" "));
+  CHECK_THAT(paraview_comparison_script("/", ".", ""), Contains("\nFOLDERS = [\".\",\"\"]\n"));
 }
