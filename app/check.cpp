@@ -61,6 +61,7 @@ void print_run_time(double seconds, std::string_view measured_on) {
 
 void tell_tried(const Case& scene) {
   Simulation simulation(scene);
+  warn_of_smaller_steps(simulation);
   print_model(simulation);
   print_run_time(seconds_per_step(simulation) * static_cast<double>(simulation.last_step()),
                  "its first steps");

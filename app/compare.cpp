@@ -105,7 +105,8 @@ int compare_command(const Arguments& arguments) {
   print(labels[0] + " against finite elements", c.a_against_fem);
   print(labels[1] + " against finite elements", c.b_against_fem);
   write_file(fs::path(o->out) / compare_script,
-             paraview_comparison_script(fs::relative(a.folder, o->out), fs::relative(b.folder, o->out)));
+             paraview_comparison_script(fs::absolute(o->out), fs::relative(a.folder, o->out),
+                                        fs::relative(b.folder, o->out)));
   for (const std::string& file : c.pictures) fmt::print("{}\n", (fs::path(o->out) / file).string());
   for (const char* file : {"comparison.csv", "comparison.json", compare_script})
     fmt::print("{}\n", (fs::path(o->out) / file).string());

@@ -105,9 +105,20 @@ _porosph_paths() {
   compopt -o filenames 2> /dev/null
   mapfile -t COMPREPLY < <(compgen "$1" -- "${word##*=}")
 }
-_porosph_cases() {
-  _porosph_paths -f
-  mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$(porosph list --names 2> /dev/null)" -- "$word")
+_porosph_cases() {  # cases and folders here, and the shipped cases, whose folders are stepped into too
+  compopt -o filenames 2> /dev/null
+  mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word")
+  local name rest last=
+  for name in $(porosph list --names 2> /dev/null); do
+    [[ $name == "$word"* ]] || continue
+    rest=${name#"$word"}
+    if [[ $rest == */* ]]; then
+      name=$word${rest%%/*}/
+      compopt -o nospace
+    fi
+    [[ $name == "$last" ]] || COMPREPLY+=("$name")
+    last=$name
+  done
 }
 _porosph() {
   local words line=${COMP_LINE:0:COMP_POINT}
@@ -118,6 +129,10 @@ _porosph() {
   if [[ ${#words[@]} -eq 2 ]]; then
     _porosph_words '@commands@ --help --version'
     return
+  fi
+  if [[ $word == --*=* ]]; then
+    previous=${word%%=*}
+    word=${word#*=}
   fi
   case ${words[1]} in
 )sh";
@@ -165,9 +180,9 @@ std::string zsh_action(const Choices& c) {
     case Choices::cases:
       return "_porosph_cases";
     case Choices::words: {
-      std::string list = fmt::format("({})", fmt::join(c.list, " "));
+      std::string list = boost::join(c.list, " ");
       boost::replace_all(list, ":", "\\:");
-      return list;
+      return " _porosph_words " + list;
     }
   }
   return " ";
@@ -175,9 +190,13 @@ std::string zsh_action(const Choices& c) {
 
 std::string zsh() {
   std::string text =
-      "#compdef porosph\n# Completion of porosph for zsh: porosph completion zsh > DIR_OF_FPATH/_porosph\n"
+      "#compdef porosph\n# Completion of porosph for zsh: source <(porosph completion zsh) after compinit, "
+      "or\n"
+      "# porosph completion zsh > FOLDER_OF_FPATH/_porosph before\n"
       "_porosph_cases() {\n  _files -g '*.toml'\n  compadd -- ${(f)\"$(porosph list --names 2> "
       "/dev/null)\"}\n}\n"
+      "_porosph_words() {  # after key= a value goes on without a space\n"
+      "  compadd -S '' -- ${(M)@:#*=}\n  compadd -- ${@:#*=}\n}\n"
       "_porosph() {\n  if (( CURRENT == 2 )); then\n    local -a commands=(\n";
   for (const Command& c : all_commands()) text += fmt::format("      '{}:{}'\n", c.name, zsh_text(c.summary));
   text +=
@@ -189,14 +208,17 @@ std::string zsh() {
     for (const OptionHelp& o : help.options) {
       const std::string value =
           o.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(o.value), zsh_action(choices_of(o.value)));
-      text += fmt::format(" \\\n        '*--{}[{}]{}'", o.name, zsh_text(o.meaning), value);
+      text += fmt::format(" \\\n        '*--{}{}[{}]{}'", o.name, o.value.empty() ? "" : "=",
+                          zsh_text(o.meaning), value);
     }
     const Choices positional = positional_of(help);
     if (positional.kind != Choices::none)
       text += fmt::format(" \\\n        '*:argument:{}'", zsh_action(positional));
     text += " ;;\n";
   }
-  return text + "  esac\n}\n_porosph \"$@\"\n";
+  return text +
+         "  esac\n}\n"
+         "if [[ $funcstack[1] == _porosph ]]; then _porosph \"$@\"; else compdef _porosph porosph; fi\n";
 }
 
 // ---------------------------------------------------------------- fish
@@ -256,7 +278,9 @@ int completion_command(const Arguments& arguments) {
   positional.add("shell", 1);
   po::variables_map values;
   if (!parse(arguments, options, positional, "completion bash|fish|zsh",
-             "  source <(porosph completion bash)\n  porosph completion fish | source\n", values))
+             "  source <(porosph completion bash)\n  source <(porosph completion zsh)\n"
+             "  porosph completion fish | source\n",
+             values))
     return Exit::done;
   const auto found = shells.find(shell);
   if (found == shells.end()) throw UsageError(fmt::format("'{}': must be bash, fish or zsh", shell));

@@ -162,6 +162,7 @@ int run_command(const Arguments& arguments) {
   }
   warn_of_known_failures(scene);
   Simulation simulation(scene);
+  warn_of_smaller_steps(simulation);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
       options->resume ? restore(options->folder, case_text, simulation) : std::optional<LeftOff>();

@@ -48,6 +48,8 @@ void check(const ContourPanel& panel) {
     fail(fmt::format("{} sizes for {} particles; allowed are 1 or one each", field.sizes.size(), count));
   if (!std::ranges::all_of(field.sizes, [](double size) { return size > 0 && std::isfinite(size); }))
     fail("a particle size that is not positive");
+  if (!field.cells.empty() && field.cells.size() != count)
+    fail(fmt::format("{} cells for {} particles; allowed are none or one each", field.cells.size(), count));
   if (!field.displacements.empty() && field.displacements.size() != count)
     fail(fmt::format("{} displacements for {} particles; allowed are none or one each",
                      field.displacements.size(), count));
@@ -213,6 +215,7 @@ void add_scenes(Picture& picture, const Scene& scene, const Plot& plot) {
   picture.add_scene(plot.box, water_scene(plot, scene.panel.scenery.water, scene.body.x_low,
                                           scene.body.x_high, scene.body.y_low));
   picture.add_scene(plot.box, particle_scene(plot, scene.positions, scene.panel.particles.sizes,
+                                             scene.panel.particles.cells,
                                              colours_of(scene.panel.particles.values, scene.scale)));
 }
 

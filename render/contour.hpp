@@ -11,11 +11,12 @@
 
 namespace porosph {
 
-/// One scalar on particles, each a square of side `sizes`, drawn at position + factor * displacement.
+/// One scalar on particles, each a square of side `sizes` or its cell, at position + factor * displacement.
 struct ParticleField {
   std::vector<Point> positions;  ///< [m]
   std::vector<double> values;  ///< one per particle, in the unit of the colour scale; not finite: drawn grey
   std::vector<double> sizes;   ///< dx, one for all or one per particle [m]
+  std::vector<Polygon> cells;  ///< none, or one per particle, about its position; empty ones: squares [m]
   std::vector<Point> displacements;  ///< none, or one per particle [m]
   double displacement_factor = 1;
 };

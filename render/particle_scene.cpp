@@ -36,6 +36,14 @@ struct Cells {
     cells->InsertNextCell({first, first + 1, first + 2, first + 3});
     add_colour(colour);
   }
+  /// `ring`: about `at`, in units of `scale` pixels.
+  void add_polygon(Pixel at, const Polygon& ring, double scale, const Colour& colour) {
+    cells->InsertNextCell(static_cast<int>(ring.size()));
+    for (const Point& corner : ring)
+      cells->InsertCellPoint(
+          points->InsertNextPoint(at.x + scale * corner.x(), at.y + scale * corner.y(), 0));
+    add_colour(colour);
+  }
   void add_point(Pixel at, const Colour& colour) {
     cells->InsertNextCell({points->InsertNextPoint(at.x, at.y, 0)});
     add_colour(colour);
@@ -77,6 +85,7 @@ vtkSmartPointer<vtkActor> gl_points(const Cells& cells, double size) {
 
 vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Point>& positions,
                                         const std::vector<double>& sizes,
+                                        const std::vector<Polygon>& outlines,
                                         const std::vector<Colour>& colours) {
   const bool as_points = positions.size() > most_quads;
   const double pixels_per_metre = plot.box.width / (plot.x.high - plot.x.low);
@@ -87,6 +96,8 @@ vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Poin
     const Pixel local{at.x - plot.box.x, at.y - plot.box.y};
     if (as_points) {
       cells.add_point(local, colours[i]);
+    } else if (!outlines.empty() && !outlines[i].empty()) {
+      cells.add_polygon(local, outlines[i], pixels_per_metre, colours[i]);
     } else {
       const double side = pixels_per_metre * (sizes.size() == 1 ? sizes[0] : sizes[i]);
       cells.add_box({local.x - 0.5 * side, local.y - 0.5 * side, side, side}, colours[i]);

@@ -110,14 +110,24 @@ struct Support {
   }
 };
 
+/// Of a boundary that may reach beyond the soil.
+bool soil_is_left(const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
+  constexpr int places = 64;
+  const Point along = boundary.to - boundary.from, aside = 1e-3 * Point(-along.y(), along.x());
+  int left = 0;
+  for (int i = 0; i < places; ++i) {
+    const Point place = boundary.from + (i + 0.5) / places * along;
+    left += inside_soil(soils, place + aside) - inside_soil(soils, place - aside);
+  }
+  return left > 0;
+}
+
 Support support(const Plot& plot, const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
   const Pixel from = plot.at(boundary.from.x(), boundary.from.y()),
               to = plot.at(boundary.to.x(), boundary.to.y());
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   Support result{from, to, {(to.x - from.x) / length, (to.y - from.y) / length}, {}, length};
-  const Point middle = 0.5 * (boundary.from + boundary.to), tangent = boundary.to - boundary.from;
-  const Point left = middle + 1e-3 * Point(-tangent.y(), tangent.x());
-  const double side = inside_soil(soils, left) ? -1 : 1;
+  const double side = soil_is_left(soils, boundary) ? -1 : 1;
   result.away = {-side * result.along.y, side * result.along.x};
   return result;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a program of real ParaView (pvpython, paraview) on a screen of its own, beside the VTK that Porosph is built
-# with, which Debian's python3-paraview would replace: paraview.sh PROGRAM ARGUMENT...
+# Runs a program of Debian's ParaView (pvpython, paraview) beside the VTK that Porosph is built with, which
+# python3-paraview would replace: paraview.sh PROGRAM ARGUMENT... Without a display it gets a screen of its own.
 # Environment: POROSPH_PARAVIEW, the folder that python3-paraview is unpacked in (default: build/paraview).
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -15,14 +15,18 @@ if [ ! -x "$unpacked/usr/bin/pvpython" ]; then
   (cd "$unpacked" && apt-get download -qq python3-paraview && dpkg -x python3-paraview_*.deb . && rm python3-paraview_*.deb)
 fi
 
-number=$(mktemp)
-Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp -noreset 3> "$number" 2> /dev/null &
-server=$!
-trap 'kill "$server"; rm -f "$number"' EXIT
-until [ -s "$number" ]; do
-  kill -0 "$server" || exit 1
-  sleep 0.1
-done
+if [ -z "${DISPLAY:-}" ]; then
+  number=$(mktemp)
+  Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp -noreset 3> "$number" 2> /dev/null &
+  server=$!
+  trap 'kill "$server"; rm -f "$number"' EXIT
+  until [ -s "$number" ]; do
+    kill -0 "$server" || exit 1
+    sleep 0.1
+  done
+  DISPLAY=":$(cat "$number")"
+  export DISPLAY
+fi
 
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(--user --map-root-user)
@@ -32,4 +36,4 @@ PARAVIEW=$unpacked unshare "${as_root[@]}" --mount bash -c '
   shift 2
   export LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/paraview-5.11 PATH="$PARAVIEW/usr/bin:$PATH"
   exec "$@"
-' paraview "$unpacked$modules" "$modules" env DISPLAY=":$(cat "$number")" "$@"
+' paraview "$unpacked$modules" "$modules" "$@"

@@ -51,7 +51,7 @@ constexpr const char* compare_head =
 # Made for ParaView 5.11 and later.
 )";
 
-constexpr const char* common = R"(
+constexpr const char* common = R"py(
 import ast
 import os
 import sys
@@ -62,7 +62,9 @@ SCRIPTS = [s for s in [globals().get("__file__", "")] + sys.argv if s.endswith("
 HERE = os.path.dirname(os.path.abspath(SCRIPTS[0])) if SCRIPTS else os.getcwd()
 PICTURES = [a for a in sys.argv[1:] if a.endswith(".png")]
 DARK = [0.15, 0.15, 0.15]
+WHITE = [1.0, 1.0, 1.0]
 WATER = [0.12, 0.47, 0.71]
+MOVING_LEVELS = []  # lines at y = 0, and the times and levels that they are moved to
 
 
 def series_path(run):
@@ -81,22 +83,31 @@ def show_text(text, view, place, size):
     display.Color = DARK
 
 
+def show_water(x_from, x_to, level, view):
+    display = Show(Line(Point1=[x_from, level, 0.0], Point2=[x_to, level, 0.0], Resolution=1), view)
+    display.AmbientColor = display.DiffuseColor = WATER
+    display.LineWidth = 3
+    display.RenderLinesAsTubes = 0
+    return display
+
+
 def show_scene(run, view, bounds):
     """Water levels and probes, as the case describes them."""
     for x_from, x_to, level in run["water"]:
-        ends = [max(x_from, bounds[0]), level, 0.0], [min(x_to, bounds[1]), level, 0.0]
-        line = Show(Line(Point1=ends[0], Point2=ends[1], Resolution=1), view)
-        line.AmbientColor = line.DiffuseColor = WATER
-        line.LineWidth = 3
-        line.RenderLinesAsTubes = 0
+        show_water(max(x_from, bounds[0]), min(x_to, bounds[1]), level, view)
+    if run["level_over_time"]:
+        MOVING_LEVELS.append((show_water(bounds[0], bounds[1], 0.0, view), run["level_over_time"]))
     mark = 0.006 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     for name, x, y in run["probes"]:
-        probe = Show(Sphere(Center=[x, y, 0.0], Radius=mark, ThetaResolution=32, PhiResolution=32), view)
-        probe.AmbientColor = probe.DiffuseColor = DARK
+        for radius, depth, colour in [(mark, 0.0, DARK), (0.7 * mark, mark, WHITE)]:
+            probe = Show(Sphere(Center=[x, y, depth], Radius=radius, ThetaResolution=32, PhiResolution=32), view)
+            probe.AmbientColor = probe.DiffuseColor = colour
+            probe.Ambient, probe.Diffuse, probe.Specular = 1.0, 0.0, 0.0
         label = Show(Text(Text=name), view)
         label.TextPropMode = "Billboard 3D Text"
         label.BillboardPosition = [x + mark, y + mark, 2 * mark]
-        label.Color = DARK
+        label.Color = WHITE
+        label.Shadow = 1
         label.FontSize = 16
         label.Bold = 1
 
@@ -119,6 +130,7 @@ def show_run(run, view):
     bounds = information.GetBounds()
     area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
     size = run["spacing"] or (area / max(information.GetNumberOfPoints(), 1)) ** 0.5
+    bounds = [end + (-0.5 if i % 2 == 0 else 0.5) * size for i, end in enumerate(bounds)]
     display.SetRepresentationType("Point Gaussian")
     display.ShaderPreset = "Plain circle"
     if size > 0:
@@ -127,10 +139,12 @@ def show_run(run, view):
         at = [run["field"], run["component"]] if run["component"] else [run["field"]]
         ColorBy(display, ["POINTS"] + at)
         display.SetScalarBarVisibility(view, True)
-        bar = GetScalarBar(GetColorTransferFunction(run["field"]), view)
-        bar.Orientation = "Horizontal"
-        bar.WindowLocation = "Lower Center"
-        bar.ScalarBarLength = 0.5
+        colours = GetColorTransferFunction(run["field"])
+        colours.ApplyPreset("Viridis (matplotlib)", True)
+        bar = GetScalarBar(colours, view)
+        bar.Orientation = "Vertical"
+        bar.WindowLocation = "Lower Right Corner"
+        bar.ScalarBarLength = 0.6
         bar.Title = " ".join(at) + run["unit"]
         bar.ComponentTitle = ""
         bar.TitleColor = bar.LabelColor = DARK
@@ -143,16 +157,20 @@ def show_run(run, view):
     view.InteractionMode = "2D"
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
+    view.Background = WHITE
+    levels = [level for x_from, x_to, level in run["water"]] + [level for time, level in run["level_over_time"]]
+    bounds[3] = max([bounds[3]] + levels)
     return reader, display, bounds
 
 
 def look_at(view, bounds):
-    """From the front, all of it, with room for the scalar bar below."""
+    """From the front, all of it, with room for the colour bar on the right and text at the top."""
+    Render(view)  # the first one of a session would move the camera
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     aspect = view.ViewSize[0] / view.ViewSize[1]
-    scale = 0.55 * max(width / aspect, height / 0.65) or 1.0
-    centre = [(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2 - 0.12 * scale]
+    room = min(130 / view.ViewSize[0], 0.45)
+    scale = 0.5 * max(width / aspect / (0.94 - room), height / 0.84) or 1.0
+    centre = [(bounds[0] + bounds[1]) / 2 + room * scale * aspect, (bounds[2] + bounds[3]) / 2 + 0.06 * scale]
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = centre + [0.0]
     view.CameraPosition = centre + [width + height]
@@ -160,9 +178,31 @@ def look_at(view, bounds):
     view.CameraParallelScale = scale
 
 
+def level_at(steps, time):
+    """Linear between the steps, constant before and after."""
+    for (t0, level0), (t1, level1) in zip(steps, steps[1:]):
+        if time < t1:
+            return level0 + (level1 - level0) * max(time - t0, 0.0) / (t1 - t0)
+    return steps[-1][1]
+
+
+def move_levels(animation):
+    """Key frames, so that water that rises and falls stands where it was at the time shown."""
+    start, end = animation.StartTime, animation.EndTime
+    for display, steps in MOVING_LEVELS:
+        display.Position = [0.0, level_at(steps, end), 0.0]
+        if start == end:
+            continue
+        times = [start] + [time for time, level in steps if start < time < end] + [end]
+        track = GetAnimationTrack("Position", index=1, proxy=display)
+        track.KeyFrames = [CompositeKeyFrame(KeyTime=(time - start) / (end - start), KeyValues=[level_at(steps, time)])
+                           for time in times]
+
+
 def to_last_time(readers):
     animation = GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()
+    move_levels(animation)
     times = [t for reader in readers for t in reader.TimestepValues]
     if times:
         animation.AnimationTime = max(times)
@@ -172,9 +212,12 @@ def one_range(displays, field):
     """The colours of all times of all runs; a field that is the same everywhere keeps ParaView's range."""
     if not field:
         return
-    for i, display in enumerate(displays):
-        display.RescaleTransferFunctionToDataRangeOverTime() if i == 0 else (
-            display.RescaleTransferFunctionToDataRange(True, False))
+    colours, ends = GetColorTransferFunction(field), []
+    for display in displays:
+        display.RescaleTransferFunctionToDataRangeOverTime()
+        ends += [colours.RGBPoints[0], colours.RGBPoints[-4]]
+    if min(ends) < max(ends):
+        colours.RescaleTransferFunction(min(ends), max(ends))
 
 
 def start(layout):
@@ -190,7 +233,7 @@ def finish(layout):
         SaveScreenshot(PICTURES[0], layout)
     elif SCRIPTS and sys.argv and sys.argv[0] in SCRIPTS and os.environ.get("DISPLAY"):
         Interact()
-)";
+)py";
 
 constexpr const char* open_tail = R"(
 RUN = {run}
@@ -207,11 +250,16 @@ finish(GetLayout(view))
 
 constexpr const char* compare_tail = R"(
 FOLDERS = {folders}
+WRITTEN_IN = {written_in}  # ParaView does not tell a script of --script where it is
 
 
 def run_in(folder):
     """What open_in_paraview.py says of the run in this folder."""
-    folder = os.path.normpath(os.path.join(HERE, folder))
+    places = [os.path.normpath(os.path.join(place, folder)) for place in (HERE, WRITTEN_IN)]
+    found = [place for place in places if os.path.exists(os.path.join(place, "open_in_paraview.py"))]
+    if not found:
+        raise RuntimeError("no run in " + " nor in ".join(places))
+    folder = found[0]
     with open(os.path.join(folder, "open_in_paraview.py")) as script:
         line = next(text for text in script if text.startswith("RUN = "))
     run = ast.literal_eval(line[len("RUN = "):])
@@ -244,7 +292,7 @@ finish(layout)
 }  // namespace
 
 ScriptScene script_scene(const Case& scene) {
-  return {scene.title, scene.particles.spacing, scene.output.boundary, scene.probes, scene.water.stretches};
+  return {scene.title, scene.particles.spacing, scene.output.boundary, scene.probes, scene.water};
 }
 
 std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
@@ -259,19 +307,25 @@ std::string paraview_script(const std::filesystem::path& folder, const std::stri
                         {"unit", unit_of(field)},
                         {"boundary", scene.boundary ? 1 : 0},
                         {"probes", nlohmann::json::array()},
-                        {"water", nlohmann::json::array()}};
+                        {"water", nlohmann::json::array()},
+                        {"level_over_time", nlohmann::json::array()}};
   for (const ProbeCase& probe : scene.probes)
     run["probes"].push_back({probe.name, probe.position.x(), probe.position.y()});
   constexpr double far = 1e30;  // JSON has no infinity; the script cuts lines at the particles
-  for (const WaterStretch& s : scene.water)
-    run["water"].push_back({std::max(s.x_from, -far), std::min(s.x_to, far), s.level});
+  for (const Point& step : scene.water.level_over_time)
+    run["level_over_time"].push_back({step.x(), step.y()});
+  if (run["level_over_time"].empty())
+    for (const WaterStretch& s : scene.water.stretches)
+      run["water"].push_back({std::max(s.x_from, -far), std::min(s.x_to, far), s.level});
   return std::string(open_head) + common + fmt::format(fmt::runtime(open_tail), fmt::arg("run", python(run)));
 }
 
-std::string paraview_comparison_script(const std::filesystem::path& a, const std::filesystem::path& b) {
+std::string paraview_comparison_script(const std::filesystem::path& folder, const std::filesystem::path& a,
+                                       const std::filesystem::path& b) {
   return std::string(compare_head) + common +
          fmt::format(fmt::runtime(compare_tail),
-                     fmt::arg("folders", python({a.generic_string(), b.generic_string()})));
+                     fmt::arg("folders", python({a.generic_string(), b.generic_string()})),
+                     fmt::arg("written_in", python(folder.generic_string())));
 }
 
 }  // namespace porosph

@@ -19,7 +19,7 @@ struct ScriptScene {
   double spacing = 0;     ///< of the particles [m]; 0: estimated by the script
   bool boundary = false;  ///< whether the series has a second block
   std::vector<ProbeCase> probes;
-  std::vector<WaterStretch> water;
+  WaterCase water;
 };
 ScriptScene script_scene(const Case& scene);
 
@@ -29,9 +29,10 @@ ScriptScene script_scene(const Case& scene);
 std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
                             const ScriptScene& scene = {});
 
-/// Shows two runs, given by their folders, side by side with linked cameras, one time and one range of
-/// colours. Relative folders are seen from the script's own. An empty one is asked for when the script is
-/// started. Each folder must hold an open_in_paraview.py.
-std::string paraview_comparison_script(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Shows two runs, `a` and `b`, given by their folders, side by side with linked cameras, one time and one
+/// range of colours. Relative ones are seen from the script's own, or else from `folder`. An empty one is
+/// asked for when the script is started. Each folder must hold an open_in_paraview.py.
+std::string paraview_comparison_script(const std::filesystem::path& folder, const std::filesystem::path& a,
+                                       const std::filesystem::path& b);
 
 }  // namespace porosph

@@ -69,7 +69,7 @@ void SeriesWriter::write(const Frame& frame, const std::optional<Frame>& boundar
     remove_unnamed_frames();
     write_file(folder_ / open_script,
                paraview_script(fs::absolute(folder_), pvd_name, frame, options_.scene));
-    write_file(folder_ / compare_script, paraview_comparison_script(".", ""));
+    write_file(folder_ / compare_script, paraview_comparison_script(fs::absolute(folder_), ".", ""));
   }
 }
 

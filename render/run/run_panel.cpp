@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/run/material_points.hpp"
+#include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/model/water.hpp"
@@ -73,6 +75,8 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   panel.particles.positions = positions_of(frame);
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(run, frame);
+  if (run.scene && has(frame, "Displacement"))
+    panel.particles.cells = particle_cells(*run.scene, starts_of(frame));
   if (deformation != 1) {
     if (!has(frame, "Displacement"))
       throw std::runtime_error(

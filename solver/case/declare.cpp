@@ -195,12 +195,16 @@ void declare(Fields& f, FormulationCase& c) {
   f.number(key_of_consistent("zero_energy_stiffness",
                              "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
                              "u, u the displacement since kernel gradients were made; 0: viscous only.")
-               .otherwise(fmt::to_string(usual.zero_energy_stiffness)),
+               .otherwise("0, but 0.1 where gradients had to be closed"),
            c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are made anew; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),
            c.refresh_strain, between(0, 0.1));
+  f.flag(key_of_consistent(
+             "closed_gradients",
+             "Change the gradients of disordered particles so that a uniform stress is in balance."),
+         c.closed_gradients);
   f.flag(key_of_consistent(
              "single_precision",
              "Store kernel gradients in single precision: less memory where particles lie irregularly."),

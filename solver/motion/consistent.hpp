@@ -22,6 +22,8 @@ using PlaneTensor = std::array<double, 4>;
 ///   rho0_a a_a = sum_b V_b (P_a L_a + P_b L_b) grad W_ab  +  J_a F_a^-T L_a sum_b V_b (p_b - p_a) grad W_ab
 ///   +  rho0_a g dF_a/dt    = sum_b V_b (v_b - v_a) (x) L_a grad W_ab,       P = J sigma' F^-T
 ///
+/// In disorder, L_a grad W_ab becomes L_a grad W_ab + (kappa_b - kappa_a) F_ab: see closed_gradients.hpp.
+///
 /// Kernel gradients, volumes V and densities rho0 belong to a reference configuration: that of the last
 /// refresh. F is the deformation since then, so the reference may be old without an error in strain or
 /// energy. It is made anew when |F - I| exceeds the case's refresh_strain, and when particles come near that
@@ -43,6 +45,8 @@ class ConsistentDynamics final : public Dynamics {
   void make_images();
   void make_gradients();
   void make_corrections();
+  void close();
+  void set_zero_energy_rate();
   void make_one_sided_gradients();
   void choose_records();
   void start_from_reference();
@@ -102,7 +106,7 @@ class ConsistentDynamics final : public Dynamics {
   const ConsistentKernels& kernels_;
   SoilArrays soil_;
   double zero_energy_viscosity_;  ///< mu = kappa rho c_p h [Pa s]
-  double zero_energy_rate_;       ///< the control acts on v + rate * displacement since the reference [1/s]
+  double zero_energy_rate_ = 0;   ///< the control acts on v + rate * displacement since the reference [1/s]
   struct Reflection {
     Mat2 stress;    ///< R
     Mat2 velocity;  ///< of what moves: R at a roller, -I at a fixed wall
@@ -117,6 +121,7 @@ class ConsistentDynamics final : public Dynamics {
   std::size_t extrapolated_ = 0;  ///< how many images have their stress extrapolated
   PairStencils stencils_;
   PlaneTensors correction_;  ///< L, of particles and images
+  std::vector<Vec2> kappa_;  ///< of particles and images; empty where the gradients are closed without [m]
   std::vector<double> volume_, reference_density_;
   std::vector<std::int32_t> root_;  ///< of each image: the particle it stems from
   struct OneSided {

@@ -33,6 +33,7 @@ class Simulation {
   std::int64_t last_step() const { return last_step_; }  ///< the step that reaches the case's end time
   double time() const { return static_cast<double>(step_) * dt_; }  ///< [s]
   double time_step() const { return dt_; }                          ///< [s]
+  double courant() const { return courant_; }  ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -82,7 +83,7 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   std::vector<Probe> probes_;
   Materials materials_;  ///< empty where all soils are linear elastic
-  double dt_ = 0;
+  double courant_ = 0, dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;
   std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
@@ -101,8 +102,5 @@ class Simulation {
   std::optional<State> good_, good_before_;
   double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
 };
-
-/// Largest stable-by-the-CFL-number time step, rounded down so that whole steps reach the end time [s].
-double time_step(const Case& scene, const Model& model);
 
 }  // namespace porosph

@@ -14,10 +14,12 @@ import tempfile
 DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "docs" / "errors.md"
 HEAD = """# What goes wrong, and what is said then
 
-A test makes every mistake below and compares the program's words with this page. To make the page anew, build the
-preset `tests` and run
+A test makes every mistake below and compares the program's words with this page. To make the page anew:
 
-    tests/app/error_table.py build/tests/bin/porosph --write
+```sh long
+cmake --preset tests && cmake --build --preset tests --target porosph
+tests/app/error_table.py build/tests/bin/porosph --write
+```
 
 All errors of a case are told at once, in the order of the file; here each stands alone. Lines and columns are those of
 this case:

@@ -9,8 +9,9 @@ What stands behind sh says what a block needs:
     ```sh            runs in a few seconds
     ```sh long       builds, or computes for minutes
     ```sh display    opens a window: started on a virtual screen by ./test.sh --paraview
-    ```sh machine    installs packages, clones, or starts the tests: done by whoever starts this script
-Each document is one shell: what a block sets, later ones find."""
+    ```sh machine    starts tests, or computes for the better part of an hour
+Each document is one shell: what a block sets, later ones find. At the end the lines that were not run are listed.
+Links between the documents are followed as well."""
 import os
 import pathlib
 import re
@@ -18,9 +19,11 @@ import subprocess
 import sys
 import tempfile
 
-KNOWN = {"", "long", "display", "machine"}
+NOT_RUN = {"display": "./test.sh --paraview runs them", "machine": "./test.sh and ./test.sh --nightly, or by hand"}
+KNOWN = {"", "long", *NOT_RUN}
 BLOCK = re.compile(r"^```sh *([a-z]*)\n(.*?)^```$", re.M | re.S)
-COMMAND_OUTSIDE = re.compile(r"^(?: {4}|\t)(?:\$ |\./|porosph |build/|cmake |pvpython |paraview )", re.M)
+COMMAND_OUTSIDE = re.compile(r"^(?: {4}|\t)(?:\$ |\./|porosph |build/|scripts/|tests/|cmake |pvpython |paraview )", re.M)
+LINK = re.compile(r"\]\(([^)#\s]*)#?([^)\s]*)\)")
 
 
 def documents(source):
@@ -34,7 +37,38 @@ def check(document):
     outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     problems += [f"a command outside of a ```sh block: {m.group().strip()}"
                  for m in COMMAND_OUTSIDE.finditer(outside)]
+    return problems + broken_links(document, outside)
+
+
+def broken_links(document, text):
+    """Files and headings of this project that are linked to and are not there."""
+    problems = []
+    for path, heading in LINK.findall(text):
+        if path.startswith("http"):
+            continue
+        target = document.parent / path if path else document
+        if not target.exists():
+            problems.append(f"a link to {path}, which is not there")
+        elif heading and heading not in headings(target):
+            problems.append(f"a link to the heading #{heading}, which {target.name} does not have")
     return problems
+
+
+def headings(document):
+    """As they are named in links."""
+    titles = re.findall(r"^#+ (.*)$", document.read_text(), re.M)
+    return [re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles]
+
+
+def not_run(source):
+    """The lines that this script leaves to others, for a reader of its output."""
+    lines = []
+    for document in documents(source):
+        for mark, body in BLOCK.findall(document.read_text()):
+            if mark in NOT_RUN:
+                lines += [f"  {document.name}, {mark}: {line}" for line in body.strip().splitlines()]
+    ways = "; ".join(f"{mark}: {who}" for mark, who in NOT_RUN.items())
+    return "\n".join([f"Not run here ({ways}):", *lines])
 
 
 def ci_lines(source):
@@ -96,6 +130,7 @@ def main(source, arguments):
             if not wanted:
                 lines = "set -eux -o pipefail\n" + "\n".join(ci_lines(clone))
                 passed = shell("ci/gitlab.yml", lines, clone, path) and passed
+        print(not_run(source))
     else:
         marks = {""} | set(arguments[1:])
         for document in documents(source):

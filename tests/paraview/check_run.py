@@ -1,7 +1,7 @@
-"""What a user does with a run in ParaView, done by pvpython: check_run.py RUN OTHER_RUN PICTURE_FOLDER
+"""What a user does with a run in ParaView, done by pvpython: check_run.py RUN OTHER_RUN DRAWDOWN PICTURE_FOLDER
 
 RUN is a submerged foundation at rest in the consistent form, with all fields and its boundary as a second block;
-OTHER_RUN is one without. Writes pictures to look at, and ends with an error at the first thing that is not as it should be."""
+OTHER_RUN is one without; in DRAWDOWN the water level falls from 9 m to 5 m within a second. Writes pictures to look at, and ends with an error at the first thing that is not as it should be."""
 import math
 import os
 import subprocess
@@ -154,11 +154,12 @@ def check_gaussians(particles, time, pictures):
     require(colours(picture) > 30, "Point Gaussian is drawn in colour")
 
 
-def check_scripts(run, other, pictures):
+def check_scripts(run, other, drawdown, pictures):
     """As a user starts them: programs of their own."""
-    for script, arguments, picture in [("open_in_paraview.py", [], "open.png"), ("open_in_paraview.py", [], "open_other.png"),
-                                       ("compare_in_paraview.py", [other], "compare.png")]:
-        folder = other if picture == "open_other.png" else run
+    for folder, script, arguments, picture in [(run, "open_in_paraview.py", [], "open.png"),
+                                               (other, "open_in_paraview.py", [], "open_other.png"),
+                                               (drawdown, "open_in_paraview.py", [], "drawn_down.png"),
+                                               (run, "compare_in_paraview.py", [other], "compare.png")]:
         picture = os.path.join(pictures, picture)
         program = os.environ["PVPYTHON"]
         done = subprocess.run([program, os.path.join(folder, script), *arguments, picture], text=True, stdout=subprocess.PIPE,
@@ -168,7 +169,7 @@ def check_scripts(run, other, pictures):
         require(colours(picture) > 30, f"{os.path.basename(picture)} shows something")
 
 
-run, other, pictures = sys.argv[1:4]
+run, other, drawdown, pictures = sys.argv[1:5]
 os.makedirs(pictures, exist_ok=True)
 print("A run with all fields and its boundary")
 particles, data, times = check_data(run, list(COMPONENTS))
@@ -177,5 +178,8 @@ check_gaussians(particles, times[-1], pictures)
 print("A run with what is written by default")
 check_data(other, [f for f in COMPONENTS if f in "Displacement Velocity EffectiveStress TotalStress PorePressure Density Mass SmoothingLength SoilId ParticleId".split()])
 print("The scripts beside them")
-check_scripts(run, other, pictures)
+check_scripts(run, other, drawdown, pictures)
+for arguments in (["check_range", run, other, os.path.join(pictures, "compare.png")],
+                  ["check_moving_level", drawdown, os.path.join(pictures, "falling.png")]):
+    subprocess.run([os.environ["PVPYTHON"], os.path.join(os.path.dirname(__file__), "check_script.py"), *arguments], check=True)
 print("ParaView shows all of it; look at the pictures in " + pictures)

@@ -53,24 +53,17 @@ Case lone_particle(Motion motion) {
 }  // namespace
 
 TEST_CASE("a lone particle that lands on a bed does not blow up the run") {
-  const Motion motion = GENERATE(Motion::proposed, Motion::conventional, Motion::rho_squared);
-  CAPTURE(motion_name(motion));
-  Simulation s(lone_particle(motion));
+  const Motion motion =
+      GENERATE(Motion::consistent, Motion::proposed, Motion::conventional, Motion::rho_squared);
+  const double courant = motion == Motion::consistent ? GENERATE(0.2, 0.6, 0.9) : 0.2;
+  CAPTURE(motion_name(motion), courant);
+  Case scene = lone_particle(motion);
+  scene.time.courant = courant;
+  Simulation s(scene);
   const double at_start = s.energy().kinetic;
   while (s.step() < s.last_step()) s.advance();
   CHECK_FALSE(s.instability());
   CHECK(s.energy().kinetic + s.energy().elastic < 1.05 * at_start);
-}
-
-// In the consistent form a landing grain renews the neighbours at every touch and gains energy by it, which
-// the guard finds.
-TEST_CASE("a lone particle that gains energy or speed in landing is found") {
-  Case scene = lone_particle(Motion::consistent);
-  scene.time.courant = 0.9;
-  const Ending e = run_of(scene);
-  REQUIRE(e.breakdown);
-  CHECK((e.breakdown->cause == Cause::energy_gain || e.breakdown->cause == Cause::too_fast));
-  CHECK(e.steps < 600);
 }
 
 TEST_CASE("a late breakdown is found within a few hundred steps and the last good state is shown") {
@@ -140,6 +133,10 @@ TEST_CASE("settings that the maps know to fail are named before the run, others 
   CHECK_THAT(warning("foundation", {"formulation.motion=proposed", "formulation.artificial_viscosity_alpha=0",
                                     "loading.damping=0", "time.end=30"}),
              Contains("without damping"));
-  CHECK_THAT(warning("foundation", {"particles.arrangement=disordered", "particles.disorder=0.2"}),
+  CHECK_THAT(warning("foundation", {"particles.arrangement=disordered", "particles.disorder=0.2",
+                                    "formulation.motion=proposed"}),
              Contains("disorder"));
+  CHECK(known_failures(
+            shipped_case("foundation", {"particles.arrangement=disordered", "particles.disorder=0.4"}))
+            .empty());
 }

@@ -25,6 +25,12 @@ struct Row {
   double* of(std::int32_t a, std::int32_t first) { return value + (a - first); }
 };
 
+inline Pair load_pair(const double* p, std::int32_t a) {
+  Pair v;
+  __builtin_memcpy(&v, p + 2 * static_cast<std::int64_t>(a), sizeof v);
+  return v;
+}
+
 struct TileRange {
   std::int32_t first, last;
   const PairStencils::Piece *piece, *piece_end;
@@ -100,6 +106,21 @@ inline void own_rates(const ConsistentArrays& c, const PairGeometryIn<Real>* g, 
   *out[yx].of(a, first) = x[1], *out[yy].of(a, first) = y[1];
 }
 
+/// What closed gradients add: sum_b (v_b - v_a) (x) w_ab (kappa_b - kappa_a).
+void add_closing_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
+  const double *vx = c.velocity[0], *vy = c.velocity[1];
+  for (std::int32_t a = tile.first; a < tile.last; ++a) {
+    Pair x{}, y{};
+    const Pair own = load_pair(c.kappa, a);
+    c.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const Pair k = g.w * (load_pair(c.kappa, b) - own);
+      x += k * (vx[b] - vx[a]), y += k * (vy[b] - vy[a]);
+    });
+    *rate[xx].of(a, tile.first) += x[0], *rate[xy].of(a, tile.first) += x[1];
+    *rate[yx].of(a, tile.first) += y[0], *rate[yy].of(a, tile.first) += y[1];
+  }
+}
+
 /// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
 inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
   const bool single = !c.stencils->own_single.empty();
@@ -123,6 +144,7 @@ inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* ra
     rate[xx].value[i] = axx * lxx[i] + axy * lxy[i], rate[xy].value[i] = axx * lyx[i] + axy * lyy[i];
     rate[yx].value[i] = ayx * lxx[i] + ayy * lxy[i], rate[yy].value[i] = ayx * lyx[i] + ayy * lyy[i];
   }
+  if (c.kappa) add_closing_rates(c, tile, rate);
 }
 
 void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
@@ -279,6 +301,30 @@ inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, s
   *out[pressure_y].of(a, first) = y[p] - own[p] * sum.y;
 }
 
+/// What closed gradients add: sum_b (P_a + P_b) w_ab (kappa_b - kappa_a) and, likewise, sum_b (p_b - p_a) ...
+template <bool wet>
+void add_closing_accelerations(const ConsistentArrays& c, const TileRange& tile, double* out) {
+  for (std::int32_t a = tile.first; a < tile.last; ++a) {
+    const double* own = c.piola + 4 * static_cast<std::int64_t>(a);
+    const Pair kappa = load_pair(c.kappa, a);
+    double fx = 0, fy = 0;
+    Pair pressure{};
+    c.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const double* other = c.piola + 4 * static_cast<std::int64_t>(b);
+      const Pair k = g.w * (load_pair(c.kappa, b) - kappa);
+      fx += (own[xx] + other[xx]) * k[0] + (own[xy] + other[xy]) * k[1];
+      fy += (own[yx] + other[yx]) * k[0] + (own[yy] + other[yy]) * k[1];
+      if (wet) pressure += k * (c.pressure[b] - c.pressure[a]);
+    });
+    if (wet) {
+      fx += c.deformation[yy][a] * pressure[0] - c.deformation[yx][a] * pressure[1];
+      fy += c.deformation[xx][a] * pressure[1] - c.deformation[xy][a] * pressure[0];
+    }
+    out[2 * static_cast<std::int64_t>(a)] += fx / c.reference_density[a];
+    out[2 * static_cast<std::int64_t>(a) + 1] += fy / c.reference_density[a];
+  }
+}
+
 template <bool wet>
 void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out) {
   const TileRange tile = range_of(*c.stencils, number);
@@ -314,6 +360,7 @@ void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out
     const double per_mass = 1 / rho[i];
     result[2 * i] = fx * per_mass + gx, result[2 * i + 1] = fy * per_mass + gy;
   }
+  if (c.kappa) add_closing_accelerations<wet>(c, tile, out);
 }
 
 void accelerate(const ConsistentArrays& c, std::int32_t tile, double* out) {

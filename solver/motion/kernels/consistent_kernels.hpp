@@ -17,6 +17,7 @@ struct ConsistentArrays {
   const PairStencils* stencils;
 
   const double* correction[4];      ///< L, and image
+  const double* kappa;              ///< of closed gradients, two numbers each, and image [m]; or null
   const double* reference_density;  ///< [kg/m3]
   const double* fill;               ///< share of its cell that a particle fills
   const double *shear_modulus, *bulk_modulus,
@@ -38,7 +39,7 @@ struct ConsistentArrays {
 
   const std::uint8_t* listed;    ///< 1 where an own list names the particle: its record is kept
   Record* records;               ///< flux, pressure and velocity or motion of those, and image
-  const std::uint8_t* mirrored;  ///< 1 where images ask for P
+  const std::uint8_t* mirrored;  ///< 1 where images or closed gradients ask for P
   double* piola;                 ///< P of those, four numbers each, and image [Pa]
 };
 

@@ -31,6 +31,9 @@ double processor_seconds(Work work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
+/// "0.74", "110".
+std::string two_digits(double value) { return fmt::format("{:g}", std::stod(fmt::format("{:.2g}", value))); }
+
 struct Way {
   std::string name;
   std::vector<std::string> fields;
@@ -81,8 +84,8 @@ TEST_CASE("measure what frames cost", "[.measure-output]") {
       "| frame | bytes per particle | making it [time steps] | writing it [time steps] "
       "|\n|---|---|---|---|\n";
   for (const Way& way : all)
-    table += fmt::format("| {} | {:.0f} | {:.2g} | {:.2g} |\n", way.name, way.bytes / particles,
-                         median(way.making) / step, median(way.writing) / step);
+    table += fmt::format("| {} | {:.0f} | {} | {} |\n", way.name, way.bytes / particles,
+                         two_digits(median(way.making) / step), two_digits(median(way.writing) / step));
   const std::string page = std::string(POROSPH_SOURCE_DIR) + "/docs/output-format.md",
                     mark = "<!-- measured -->\n";
   std::string text = read_file(page);

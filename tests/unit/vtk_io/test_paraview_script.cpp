@@ -46,7 +46,7 @@ TEST_CASE("the script knows probes and water") {
   scene.spacing = 0.2;
   scene.boundary = true;
   scene.probes = {{"A", {1, 2}}};
-  scene.water = {{-never, 3, 4}, {3, never, 5}};
+  scene.water.stretches = {{-never, 3, 4}, {3, never, 5}};
   const auto run = run_of(paraview_script("", "a", example_frame(), scene));
   CHECK(run["title"] == "Dam");
   CHECK(run["spacing"] == 0.2);
@@ -55,6 +55,12 @@ TEST_CASE("the script knows probes and water") {
   REQUIRE(run["water"].size() == 2);
   CHECK(run["water"][0][0] < -1e9);  // everywhere: JSON has no infinity
   CHECK(run["water"][1][2] == 5);
+  CHECK(run["level_over_time"].empty());
+
+  scene.water = {.stretches = {{-never, never, 1}}, .level_over_time = {{0, 1}, {2, 3}}};
+  const auto rising = run_of(paraview_script("", "a", example_frame(), scene));
+  CHECK(rising["water"].empty());
+  CHECK(rising["level_over_time"] == nlohmann::json::parse("[[0.0, 1.0], [2.0, 3.0]]"));
 }
 
 TEST_CASE("names are quoted as Python text") {
@@ -64,6 +70,7 @@ TEST_CASE("names are quoted as Python text") {
 }
 
 TEST_CASE("a script of two runs names their folders") {
-  CHECK_THAT(paraview_comparison_script("../a", "../b b"), Contains("\nFOLDERS = [\"../a\",\"../b b\"]\n"));
-  CHECK_THAT(paraview_comparison_script(".", ""), Contains("\nFOLDERS = [\".\",\"\"]\n"));
+  CHECK_THAT(paraview_comparison_script("/runs/c", "../a", "../b b"),
+             Contains("\nFOLDERS = [\"../a\",\"../b b\"]\n") && Contains("\nWRITTEN_IN = \"/runs/c\" "));
+  CHECK_THAT(paraview_comparison_script("/", ".", ""), Contains("\nFOLDERS = [\".\",\"\"]\n"));
 }

@@ -1,0 +1,61 @@
+"""What the scripts beside a series show, each in a pvpython of its own:
+check_script.py check_range RUN OTHER_RUN PICTURE, or check_script.py check_moving_level DRAWDOWN PICTURE"""
+import os
+import sys
+
+from paraview import servermanager
+from paraview.simple import *
+
+
+def require(truth, what):
+    if not truth:
+        raise AssertionError(what)
+    print("  " + what)
+
+
+def start(script, *arguments):
+    """Runs a script in here, as pvpython would; returns what it defines."""
+    sys.argv = [script, *arguments]
+    names = {"__file__": script}
+    with open(script) as text:
+        exec(text.read(), names)
+    return names
+
+
+def check_moving_level(folder, picture):
+    """The level that the script draws, against that of the case, at the time of each frame."""
+    names = start(os.path.join(folder, "open_in_paraview.py"), picture)
+    (display, steps), = names["MOVING_LEVELS"]
+    times = list(names["reader"].TimestepValues)
+    for time in times:
+        GetAnimationScene().AnimationTime = time
+        drawn, level = display.Position[1], max(9 - 4 * time, 5)
+        if abs(drawn - level) > 1e-6:
+            raise AssertionError(f"at {time} s the level is drawn at {drawn} m, not at {level} m")
+    require(times[-1] > 1 and any(0 < t < 1 for t in times), f"the water level is where it was at {len(times)} times")
+    GetAnimationScene().AnimationTime = times[len(times) // 4]
+    SaveScreenshot(picture, GetLayout())
+
+
+def first_block(data):
+    while data.IsA("vtkCompositeDataSet"):
+        data = data.GetBlock(0)
+    return data
+
+
+def check_range(run, other, picture):
+    """The colours of the comparison, against the values of both runs at all times."""
+    names = start(os.path.join(run, "compare_in_paraview.py"), other, picture)
+    values = []
+    for reader, display, bounds in names["shown"]:
+        for time in reader.TimestepValues:
+            reader.UpdatePipeline(time)
+            array = first_block(servermanager.Fetch(reader)).GetPointData().GetArray("EffectiveStress")
+            values += array.GetRange(1)
+    points = GetColorTransferFunction("EffectiveStress").RGBPoints
+    ends = points[0], points[-4]
+    require(all(abs(a - b) < 1e-6 * abs(b) for a, b in zip(ends, (min(values), max(values)))),
+            f"one range of colours for all times of both runs, {ends[0]:g} to {ends[1]:g} Pa")
+
+
+globals()[sys.argv[1]](*sys.argv[2:])
