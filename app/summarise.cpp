@@ -29,6 +29,9 @@ std::map<std::string, std::string> skipped_work(const Simulation& s) {
   if (f.bulk_viscosity == 0) skipped["bulk_viscosity"] = "its strength is zero";
   if (c.loading.damping == 0 && !c.loading.adaptive_damping) skipped["damping"] = "xi is zero";
   skipped["kernel_gradients"] = fmt::format("made {} times in {} steps", counts.refreshes, s.step());
+  if (f.motion == Motion::consistent)
+    skipped["closed_gradients"] =
+        f.closed_gradients ? fmt::format("needed {} times of {}", counts.closures, counts.refreshes) : "off";
   skipped["neighbour_search"] = fmt::format("{} times in {} steps", counts.searches, s.step());
   return skipped;
 }

@@ -159,9 +159,11 @@ std::vector<Box> cells_of(int count, int columns, double width, double height) {
   const int rows = (count + columns - 1) / columns;
   const double cell_width = width / columns, cell_height = height / rows;
   std::vector<Box> cells;
-  for (int i = 0; i < count; ++i)
-    cells.push_back({i % columns * cell_width + edge, height - (i / columns + 1) * cell_height + edge,
+  for (int i = 0; i < count; ++i) {
+    const int row = i / columns, column = i % columns;
+    cells.push_back({column * cell_width + edge, height - (row + 1) * cell_height + edge,
                      cell_width - 2 * edge, cell_height - 2 * edge});
+  }
   return cells;
 }
 

@@ -13,7 +13,10 @@ build() {  # PRESET TARGET...
 # Leaks: OSMesa, fontconfig and VTK's factories keep memory until the end on purpose.
 address() {
   build asan porosph unit_solver unit_run_folder unit_vtk_io unit_render unit_bench oracle app_tests || return 1
-  ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan -j "$(nproc)" --output-on-failure \
+  export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+  # Slower than without sanitizers by a factor of ten: --fault has the two seconds.
+  python3 tests/fault/mutated_cases.py build/asan/bin/porosph cases/*.toml cases/verification/*.toml --count 500 --seconds 20 || return 1
+  ctest --test-dir build/asan -j "$(nproc)" --output-on-failure \
     --no-tests=error --timeout 1500 -E '^(verification|stability|docs)|browser' "$@"
 }
 

@@ -38,7 +38,7 @@ SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
 }
 
 SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions options) {
-  SeriesWriter series(std::move(folder), options);
+  SeriesWriter series(std::move(folder), std::move(options));
   series.frames_ = read_pvd(series.pvd());
   std::erase_if(series.frames_, [&](const SeriesFrame& frame) { return frame.time > time; });
   if (series.frames_.empty() || series.frames_.back().time != time) {

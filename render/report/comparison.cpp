@@ -50,7 +50,7 @@ ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, st
   return panel;
 }
 
-void share_scale(std::vector<ContourPanel*> panels, const std::string& label) {
+void share_scale(const std::vector<ContourPanel*>& panels, const std::string& label) {
   std::vector<std::vector<double>> values;
   for (const ContourPanel* panel : panels) values.push_back(panel->particles.values);
   const ColourScale scale{label, ColourMap::cool_warm, shared_range(values, ColourMap::cool_warm)};

@@ -47,7 +47,7 @@ std::vector<DifferingSetting> differing_settings(const std::vector<Case>& scenes
   std::vector<DifferingSetting> all;
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (const auto& [key, value] : settings_of(scenes[i])) {
-      auto found = std::find_if(all.begin(), all.end(), [&](const auto& d) { return d.key == key; });
+      auto found = std::find_if(all.begin(), all.end(), [&key = key](const auto& d) { return d.key == key; });
       if (found == all.end()) found = all.insert(all.end(), {key, std::vector<std::string>(scenes.size())});
       found->values[i] = value;
     }

@@ -7,7 +7,7 @@
 namespace porosph {
 
 FiniteStrainColumn conventional_column(const Column& column) {
-  const FiniteStrainColumn exact(column);
+  FiniteStrainColumn exact(column);
   const double initial_depth = column.water_level - column.height;
   if (initial_depth + exact.settlement() <= 0) return exact;
 

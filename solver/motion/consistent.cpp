@@ -124,6 +124,7 @@ void ConsistentDynamics::close() {
                                        .reflections = reflections,
                                        .spacing = model_.spacing});
     kappa_ = std::move(closure.kappa);
+    counts.closures += kappa_.empty() ? 0 : 1;
     for (std::size_t a = 0; a < closure.correction.size(); ++a) set(correction_, a, closure.correction[a]);
   }
   for (std::size_t i = 0; i < images_.size(); ++i) {

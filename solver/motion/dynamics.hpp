@@ -35,9 +35,9 @@ class Dynamics {
   /// saving. Lists and gradients are made anew by the code that made them first. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
 
-  /// How often neighbours were searched, and kernel gradients made.
+  /// How often neighbours were searched, kernel gradients made, and of these closed for disorder.
   struct Counts {
-    std::int64_t searches = 0, refreshes = 0;
+    std::int64_t searches = 0, refreshes = 0, closures = 0;
   };
   Counts counts;
 };

@@ -150,6 +150,7 @@ void Simulation::visit(StateArchive& state) {
   state.value("prepared", prepared);
   state.value("searches", counts_then.searches);
   state.value("refreshes", counts_then.refreshes);
+  state.value("closures", counts_then.closures);
   visit_particles(state, model_.particles);
   for (std::optional<State>* remembered : {&good_, &good_before_}) visit_remembered(state, *remembered);
   state.value("relaxation_stiffness", relaxation_.stiffness);

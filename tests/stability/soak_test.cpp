@@ -29,6 +29,13 @@ void rests(const Case& scene, std::int64_t steps, double allowed) {
   CHECK(s.energy().kinetic < allowed * before.energy);
 }
 
+Case disordered_bed(double end) {
+  Case scene = saturated_bed(end);
+  scene.particles.arrangement = Arrangement::disordered;
+  scene.particles.disorder = 0.3;
+  return scene;
+}
+
 Case released_embankment(double end) {
   return shipped_case("embankment", {"particles.spacing=0.5", "time.courant=0.9", "loading.damping=0.03",
                                      "loading.damping_until=12", "time.end=" + std::to_string(end)});
@@ -40,8 +47,16 @@ TEST_CASE("a resting saturated bed does not drift without damping") {
   rests(saturated_bed(1e3), 30000, 1e-3);
 }
 
+TEST_CASE("a resting bed of disordered particles does not drift without damping") {
+  rests(disordered_bed(1e3), 10000, 1e-3);
+}
+
 TEST_CASE("a resting saturated bed does not drift in a million steps", "[.nightly]") {
   rests(saturated_bed(1e4), 1000000, 1e-3);
+}
+
+TEST_CASE("a resting bed of disordered particles does not drift in a million steps", "[.nightly]") {
+  rests(disordered_bed(1e4), 1000000, 1e-3);
 }
 
 TEST_CASE("an embankment released from damping stays in equilibrium") {

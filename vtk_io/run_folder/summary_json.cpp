@@ -137,7 +137,7 @@ class Object {
   Integer integer(const std::string& key) const {
     const auto& value = at(key);
     const bool fits = value.is_number_integer() && value.get<double>() >= 0 &&
-                      value.get<double>() <= static_cast<double>(std::numeric_limits<Integer>::max() / 2);
+                      value.get<double>() <= 0.5 * static_cast<double>(std::numeric_limits<Integer>::max());
     if (!fits) fail(key, "must be a whole number, not negative", value);
     return value.get<Integer>();
   }
