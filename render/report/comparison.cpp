@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "render/run/history_lines.hpp"
-#include "render/run/particle_cells.hpp"
 #include "render/run/run_panel.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
@@ -46,7 +45,7 @@ ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, st
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(side.run, side.frame);
   if (!side.run.scene) return panel;
-  panel.particles.cells = particle_cells(*side.run.scene, at);
+  panel.particles.cells = drawn_cells(*side.run.scene, at);
   panel.scenery = scenery_of(*side.run.scene);
   return panel;
 }
@@ -136,7 +135,7 @@ ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Fr
   panel.particles.positions = starts;
   panel.particles.values = scaled(fem.values(field, starts), factor);
   panel.particles.sizes = particle_sizes(run, frame);
-  if (run.scene) panel.particles.cells = particle_cells(*run.scene, starts);
+  if (run.scene) panel.particles.cells = drawn_cells(*run.scene, starts);
   const auto x = fem.values({"Displacement", "X"}, starts), y = fem.values({"Displacement", "Y"}, starts);
   for (std::size_t i = 0; i < starts.size(); ++i)
     panel.particles.displacements.push_back(std::isfinite(x[i]) ? Point(x[i], y[i]) : Point(0, 0));

@@ -25,6 +25,8 @@ std::vector<Point> positions_of(const Frame& frame) {
   return out;
 }
 
+constexpr double overlap = 1.03;  // so that soil that stretches a little shows no gaps
+
 /// Median distance from a few particles to their nearest.
 double usual_distance(const std::vector<Point>& positions) {
   std::vector<double> nearest;
@@ -60,13 +62,19 @@ Scenery scenery_of(const Case& scene) {
 }
 
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame) {
-  constexpr double overlap = 1.03;  // so that soil that stretches a little shows no gaps between its squares
   if (run.scene) return {overlap * run.scene->particles.spacing};
   if (!has(frame, "Mass") || !has(frame, "Density")) return {usual_distance(positions_of(frame))};
   std::vector<double> sizes = values_of(frame, {"Mass", ""});
   const std::vector<double> densities = values_of(frame, {"Density", ""});
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::sqrt(sizes[i] / densities[i]);
   return sizes;
+}
+
+std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& starts) {
+  std::vector<Polygon> cells = particle_cells(scene, starts);
+  for (Polygon& cell : cells)
+    for (Point& corner : cell) corner *= overlap;
+  return cells;
 }
 
 ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<double> values,
@@ -76,7 +84,7 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(run, frame);
   if (run.scene && has(frame, "Displacement"))
-    panel.particles.cells = particle_cells(*run.scene, starts_of(frame));
+    panel.particles.cells = drawn_cells(*run.scene, starts_of(frame));
   if (deformation != 1) {
     if (!has(frame, "Displacement"))
       throw std::runtime_error(

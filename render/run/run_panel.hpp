@@ -19,6 +19,9 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
 /// usual distance to the next particle [m].
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame);
 
+/// particle_cells, a little enlarged as the squares are.
+std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& starts);
+
 /// The same extent for all of them, rounded, or centred at zero for a diverging map.
 ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMap map);
 

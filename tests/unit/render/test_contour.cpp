@@ -200,3 +200,16 @@ TEST_CASE("a file that cannot be written is an error that names it") {
   CHECK_THROWS_WITH(save_contours(figure_of(block(2, 2, 1.)), picture_path("no_such_folder/picture.png")),
                     Catch::Contains("no_such_folder"));
 }
+
+TEST_CASE("a support that reaches beyond the soil stands beside it") {
+  ContourFigure figure = figure_of(block(2, 1, 1.));
+  figure.scale.range = ValueRange{-1, 12};
+  figure.panels[0].scenery.soils = {{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {}}};
+  const auto soil_pixels = [&] {
+    const Image image = saved(figure, "support.png");
+    return image.find(colour_of(1, {-1, 12}), image.width() - bar_space).pixels;
+  };
+  const long bare = soil_pixels();
+  figure.panels[0].scenery.boundaries = {{BoundaryKind::roller, {2, 0}, {2, 4}}};
+  CHECK(soil_pixels() == bare);
+}
