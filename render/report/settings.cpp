@@ -17,7 +17,13 @@ bool is_list_of_tables(const toml::node& node) {
   return node.is_array() && !node.as_array()->empty() && node.as_array()->get(0)->is_table();
 }
 
+/// On one line. (toml++ may break long arrays, and rounds their width past what an integer holds.)
 std::string text_of(const toml::node& node) {
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> items;
+    for (const toml::node& item : *array) items.push_back(text_of(item));
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
