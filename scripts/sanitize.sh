@@ -27,7 +27,7 @@ thread() {
   local archer
   archer=$(find /usr/lib/llvm-*/lib -name libarcher.so | sort -V | tail -n 1)
   [ -n "$archer" ] || { echo "There is no libarcher.so: scripts/install_packages.sh nightly" >&2; return 1; }
-  export OMP_TOOL_LIBRARIES=$archer TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1 OMP_NUM_THREADS=4
+  export OMP_TOOL_LIBRARIES=$archer TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1 OMP_NUM_THREADS=4 OMP_WAIT_POLICY=passive
   build tsan porosph unit_solver unit_run_folder oracle || return 1
   # Four threads in every form, in a frame of all fields, and in runs side by side.
   local place form
