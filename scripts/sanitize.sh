@@ -39,7 +39,7 @@ thread() {
   build/tsan/bin/porosph stability --case cases/verification/column.toml --vary time.courant=0.3,0.5 --vary loading.damping=0.01,0.02 \
     --set time.end=0.2 --jobs 4 --quiet --out "$place/stability" || return 1
   rm -r "$place"
-  ctest --test-dir build/tsan -j "$(nproc)" --output-on-failure --no-tests=error --timeout 1500 -R '^(unit/|oracle)' "$@"
+  OMP_NUM_THREADS=2 ctest --test-dir build/tsan -j "$(nproc)" --output-on-failure --no-tests=error --timeout 1500 -R '^(unit/|oracle)' "$@"
 }
 
 failed=0
