@@ -47,7 +47,7 @@ class Closing {
   }
 
   Closure close() {
-    if (held_count_ == 0 || rms(lopsidedness()) <= closed_enough) return {};
+    if (held_count_ == 0 || is_lattice()) return {};
     Vectors kappa(particles_, Vec2::Zero());
     Vectors residual = imbalance(mirrored({g_.correction.begin(), g_.correction.end()}), spread(kappa));
     if (rms(residual) <= closed_enough) return {};
@@ -89,6 +89,15 @@ class Closing {
                                  [&](std::int32_t b, const PairGeometry&) { near = near || surface[b]; });
       held_[a] = !near;
     }
+  }
+
+  /// But for a few rows, such as those at walls that lie askew to the lattice, which are not worth the work.
+  bool is_lattice() const {
+    const Vectors n = lopsidedness();
+    const double irregular = sum(particles_, [&](std::size_t a) {
+      return n[a].norm() * g_.spacing > closed_enough * g_.volumes[a] ? 1.0 : 0.0;
+    });
+    return irregular <= 0.1 * static_cast<double>(held_count_);
   }
 
   /// V_a 2 sum_b V_b F_ab x_ab: in a lattice, strained or not, neighbours face each other and it vanishes,
