@@ -7,6 +7,20 @@
 
 namespace porosph {
 
+/// Of the model as it is now.
+inline std::vector<Vec2> accelerations_of(Dynamics& dynamics, const Model& model) {
+  std::vector<Vec2> a(model.particles.size());
+  dynamics.prepare();
+  dynamics.accelerations(a);
+  return a;
+}
+inline std::vector<Mat2> velocity_gradients_of(Dynamics& dynamics, const Model& model) {
+  std::vector<Mat2> g(model.particles.size());
+  dynamics.prepare();
+  dynamics.velocity_gradients(g);
+  return g;
+}
+
 /// `steps` of dt [s] from the model's velocities, undamped. Pore pressure follows the water, where there is
 /// any.
 inline void step_by_hand(Dynamics& dynamics, Model& model, double dt, int steps) {

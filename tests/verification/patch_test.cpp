@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "solver/motion/dynamics.hpp"
+#include "tests/step_by_hand.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;
@@ -44,18 +45,8 @@ struct Block {
     Particles& p = model.particles;
     for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = field(p.position[i]);
   }
-  std::vector<Vec2> accelerations() {
-    std::vector<Vec2> a(model.particles.size());
-    dynamics->prepare();
-    dynamics->accelerations(a);
-    return a;
-  }
-  std::vector<Mat2> velocity_gradients() {
-    std::vector<Mat2> g(model.particles.size());
-    dynamics->prepare();
-    dynamics->velocity_gradients(g);
-    return g;
-  }
+  std::vector<Vec2> accelerations() { return accelerations_of(*dynamics, model); }
+  std::vector<Mat2> velocity_gradients() { return velocity_gradients_of(*dynamics, model); }
   /// Farther from free faces than particles whose neighbours see them.
   bool is_inside(std::size_t i) const {
     const Vec2& x = model.particles.position[i];

@@ -30,18 +30,8 @@ struct Scene {
   explicit Scene(const Case& scene)
       : model(build_model(scene)), dynamics(make_dynamics(scene.formulation, model)) {}
 
-  std::vector<Vec2> accelerations() {
-    std::vector<Vec2> a(model.particles.size());
-    dynamics->prepare();
-    dynamics->accelerations(a);
-    return a;
-  }
-  std::vector<Mat2> velocity_gradients() {
-    std::vector<Mat2> g(model.particles.size());
-    dynamics->prepare();
-    dynamics->velocity_gradients(g);
-    return g;
-  }
+  std::vector<Vec2> accelerations() { return accelerations_of(*dynamics, model); }
+  std::vector<Mat2> velocity_gradients() { return velocity_gradients_of(*dynamics, model); }
 
   Model model;
   std::unique_ptr<Dynamics> dynamics;
