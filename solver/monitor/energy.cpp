@@ -3,54 +3,46 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/parallel.hpp"
+
 namespace porosph {
 
 double kinetic_energy(const Particles& p, std::span<const Vec2> velocity) {
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) sum += 0.5 * p.mass[i] * velocity[i].squaredNorm();
-  return sum;
+  return deterministic_sum(p.size(),
+                           [&](std::size_t i) { return 0.5 * p.mass[i] * velocity[i].squaredNorm(); });
 }
 
 double elastic_energy(const Model& model, std::size_t i) {
-  const Stress& s = model.particles.stress[i];
-  const LinearElastic& soil = model.soils[model.particles.soil[i]];
-  const double mean = s.mean();
-  const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
-  const double deviatoric = xx * xx + yy * yy + zz * zz + 2 * s.xy * s.xy;
-  return model.particles.volume(i) *
-         (deviatoric / (4 * soil.shear_modulus) + mean * mean / (2 * soil.bulk_modulus));
+  const Particles& p = model.particles;
+  return p.volume(i) * model.soils[p.soil[i]].stored_energy(p.stress[i]);
 }
 
 double elastic_energy(const Model& model) {
-  double sum = 0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i) sum += elastic_energy(model, i);
-  return sum;
+  return deterministic_sum(model.particles.size(), [&](std::size_t i) { return elastic_energy(model, i); });
 }
 
 double gravity_energy(const Model& model) {
   const Particles& p = model.particles;
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) sum -= p.mass[i] * model.gravity.dot(p.displacement(i));
-  return sum;
+  return -deterministic_sum(p.size(),
+                            [&](std::size_t i) { return p.mass[i] * model.gravity.dot(p.displacement(i)); });
 }
 
 double water_energy(const Model& model) {
   const Particles& p = model.particles;
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  return -deterministic_sum(p.size(), [&](std::size_t i) {
     const double before = model.water.pore_pressure(p.start[i].x(), p.start[i].y());
-    sum += p.volume(i) * (p.pore_pressure[i] - before);
-  }
-  return -sum;
+    return p.volume(i) * (p.pore_pressure[i] - before);
+  });
 }
 
 double unbalanced_force_ratio(const Model& model, std::span<const Vec2> accelerations) {
-  double force = 0, weight = 0;
-  for (std::size_t i = 0; i < accelerations.size(); ++i) {
-    const double m2 = model.particles.mass[i] * model.particles.mass[i];
-    force += m2 * accelerations[i].squaredNorm();
-    weight += m2 * model.gravity.squaredNorm();
-  }
+  const auto squares = [&](auto&& acceleration_squared) {
+    return deterministic_sum(accelerations.size(), [&](std::size_t i) {
+      return model.particles.mass[i] * model.particles.mass[i] * acceleration_squared(i);
+    });
+  };
+  const double force = squares([&](std::size_t i) { return accelerations[i].squaredNorm(); });
+  const double weight = squares([&](std::size_t) { return model.gravity.squaredNorm(); });
   return weight > 0 ? std::sqrt(force / weight) : std::numeric_limits<double>::infinity();
 }
 
