@@ -46,7 +46,7 @@ void print_model(const Simulation& s) {
     const auto count =
         std::count(m.particles.soil.begin(), m.particles.soil.end(), static_cast<std::int32_t>(i));
     fmt::print("  {:16}{} of '{}', K = {:.4g} MPa, G = {:.4g} MPa\n", "", count, s.scene().soils[i].name,
-               m.soils[i].bulk_modulus / 1e6, m.soils[i].shear_modulus / 1e6);
+               m.soils[i].bulk_modulus() / 1e6, m.soils[i].shear_modulus() / 1e6);
   }
   print_settings(s.scene());
   fmt::print("{:18}{:.4g} m/s\n", "wave speed c_p", m.wave_speed);

@@ -8,7 +8,7 @@
 #include "app/command.hpp"
 #include "app/shipped_cases.hpp"
 #include "solver/case/case_keys.hpp"
-#include "solver/output/fields.hpp"
+#include "solver/particles/field_table.hpp"
 
 namespace porosph::app {
 namespace {
@@ -33,9 +33,11 @@ Words settings() {
 
 Words selections() {
   Words all;
-  for (const FieldDescription& field : known_fields()) {
-    if (field.components.size() < 4) all.push_back(field.name);
-    for (const std::string& component : field.components) all.push_back(field.name + ":" + component);
+  for (const Field& field : field_table()) {
+    const std::string name(field.name);
+    const std::vector<std::string> components = component_names(field.kind);
+    if (components.size() < 4) all.push_back(name);
+    for (const std::string& component : components) all.push_back(name + ":" + component);
   }
   return all;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "solver/output/fields.hpp"
+#include "solver/particles/field_table.hpp"
 
 namespace porosph {
 namespace {
@@ -26,9 +26,8 @@ Colouring colouring_of(const Frame& frame) {
 
 /// " [Pa]"; empty for a field that is not one of ours.
 std::string unit_of(const std::string& field) {
-  const auto& known = known_fields();
-  const auto found = std::ranges::find(known, field, &FieldDescription::name);
-  return found == known.end() || found->unit == "-" ? "" : fmt::format(" [{}]", found->unit);
+  const Field* known = find_field(field);
+  return known == nullptr || known->unit == "-" ? "" : fmt::format(" [{}]", known->unit);
 }
 
 /// A Python literal: JSON's escapes, numbers and lists are also Python's.

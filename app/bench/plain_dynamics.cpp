@@ -5,9 +5,26 @@
 #include <stdexcept>
 
 #include "solver/correction/kernel_correction.hpp"
-#include "solver/motion/soil_step.hpp"
 
 namespace porosph::bench {
+namespace {
+
+/// Velocity gradient over the coordinates at the middle of the step, from `rate`, that over those at its
+/// start [1/s] (Hughes and Winget 1980: a rigid rotation strains nothing).
+Mat2 mid_step_gradient(const Mat2& rate, double dt) {
+  return rate * inverse(Mat2(Mat2::Identity() + 0.5 * dt * rate));
+}
+
+/// Effective stress (eq. 30) and density, d(rho)/dt = -rho tr(D), after a step dt [s].
+void update_soil(Model& model, std::size_t a, const Mat2& gradient, double dt) {
+  Particles& p = model.particles;
+  LinearElastic::History none;
+  p.stress[a] = std::get<LinearElastic>(model.soils[p.soil[a]].law()).step(p.stress[a], gradient, dt, none);
+  const double half = 0.5 * dt * gradient.trace();
+  p.density[a] *= (1 - half) / (1 + half);
+}
+
+}  // namespace
 
 PlainDynamics::PlainDynamics(const FormulationCase& formulation, Model& model)
     : model_(model),
@@ -85,7 +102,7 @@ void PlainDynamics::fill_points() {
                   .pressure = p.pore_pressure[a],
                   .density = p.density[a],
                   .volume = p.volume(a),
-                  .sound = std::sqrt(model_.soils[p.soil[a]].shear_modulus / p.density[a])};  // eq. (16)
+                  .sound = std::sqrt(model_.soils[p.soil[a]].shear_modulus() / p.density[a])};  // eq. (16)
   for (std::size_t i = 0; i < ghosts_.size(); ++i) points_[p.size() + i] = mirrored(i);
 }
 
@@ -183,9 +200,7 @@ void PlainDynamics::strain(double dt) {
   fill_velocities();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < model_.particles.size(); ++a) {
-    const Mat2 gradient = mid_step_gradient(velocity_gradient(a), dt);
-    update_stress(model_, a, gradient, dt);
-    update_density(model_.particles, a, gradient, dt);
+    update_soil(model_, a, mid_step_gradient(velocity_gradient(a), dt), dt);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/particles/field_table.hpp"
+
 namespace porosph {
 
 using Point = Eigen::Vector2d;       ///< position in the plane, x to the right, y upwards [m]
@@ -121,17 +123,11 @@ struct OutputCase {
   double interval = 0;          ///< between frames; 0: first and last only [s]
   std::vector<double> times;    ///< of further frames [s]
   double history_interval = 0;  ///< between rows of the history; 0: every step [s]
-  std::vector<std::string> fields = {
-      "Displacement", "Velocity", "EffectiveStress", "TotalStress", "PorePressure",
-      "Density",      "Mass",     "SmoothingLength", "SoilId",      "ParticleId"};
+  std::vector<std::string> fields = standard_field_names();
   bool boundary = false;  ///< the images behind the walls as a second block
   FrameFormat format = FrameFormat::poly_data;
   Compression compression = Compression::zlib;
 };
-
-/// Fields that are computed and written only when asked for.
-inline const std::vector<std::string> optional_fields = {"PrincipalStress", "MeanStress", "DeviatoricStress",
-                                                         "VonMisesStress",  "Strain",     "ExcessStress"};
 
 struct ProbeCase {
   std::string name;

@@ -248,8 +248,8 @@ void declare(Fields& f, StopCase& c) {
 
 void declare(Fields& f, OutputCase& c) {
   static const std::vector<std::string> known = [] {
-    std::vector<std::string> all = OutputCase{}.fields;
-    all.insert(all.end(), optional_fields.begin(), optional_fields.end());
+    std::vector<std::string> all;
+    for (const Field& field : field_table()) all.emplace_back(field.name);
     return all;
   }();
   f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, between(0, longest));

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/case/shapes.hpp"
-#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/soil/elasticity.hpp"
 
 namespace porosph {
 namespace {
@@ -16,7 +16,7 @@ double wave_speed(const Case& scene) {
   double fastest = 0;
   for (const SoilCase& soil : scene.soils) {
     const double modulus =
-        LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
+        Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
     const double density =
         std::min(soil.unit_weight_saturated, soil.unit_weight_unsaturated) / scene.loading.gravity;
     if (density > 0) fastest = std::max(fastest, std::sqrt(modulus / density));

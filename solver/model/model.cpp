@@ -62,7 +62,7 @@ Model build_model(const Case& scene) {
   model.water = Water(scene.water);
   if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
   for (const SoilCase& s : scene.soils)
-    model.soils.push_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
+    model.soils.emplace_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
 
   model.particles = make_particles(scene, model.water, place_particles(scene));
   check_every_soil_has_particles(scene, model.particles);

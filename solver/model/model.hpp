@@ -5,15 +5,15 @@
 
 #include "solver/boundary/wall.hpp"
 #include "solver/case/case.hpp"
-#include "solver/constitutive/linear_elastic.hpp"
-#include "solver/model/particles.hpp"
 #include "solver/model/water.hpp"
+#include "solver/particles/particles.hpp"
+#include "solver/soil/soil.hpp"
 
 namespace porosph {
 
 struct Model {
   Particles particles;
-  std::vector<LinearElastic> soils;
+  std::vector<Soil> soils;
   Water water;
   std::vector<Wall> walls;
   double spacing = 0;           ///< dx [m]

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "solver/case/case.hpp"
-#include "solver/model/particles.hpp"
+#include "solver/particles/particles.hpp"
 
 namespace porosph {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/parallel.hpp"
+
 namespace porosph {
 namespace {
 
@@ -15,21 +17,8 @@ constexpr int most_iterations = 100;
 using Vectors = std::vector<Vec2>;
 using Matrices = std::vector<Mat2>;
 
-/// The same bits for any number of threads: sums of blocks of fixed size, added in their order.
-template <class Term>
-double sum(std::size_t count, Term&& term) {
-  constexpr std::size_t block = 1024;
-  std::vector<double> sums((count + block - 1) / block);
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    for (std::size_t a = k * block; a < std::min(count, (k + 1) * block); ++a) sums[k] += term(a);
-  double all = 0;
-  for (const double s : sums) all += s;
-  return all;
-}
-
 double dot(const Vectors& x, const Vectors& y) {
-  return sum(x.size(), [&](std::size_t a) { return x[a].dot(y[a]); });
+  return deterministic_sum(x.size(), [&](std::size_t a) { return x[a].dot(y[a]); });
 }
 
 /// x = x * factor + y * by.
@@ -41,7 +30,7 @@ void combine(Vectors& x, double factor, const Vectors& y, double by) {
 class Closing {
  public:
   explicit Closing(const CorrectedGradients& g)
-      : g_(g), particles_(g.correction.size()), points_(particles_ + g.images.size()) {
+      : g_(g), particles_(g.correction.size()), points_(particles_ + g.ghosts.size()) {
     hold_the_inside();
     held_count_ = std::count(held_.begin(), held_.end(), 1);
   }
@@ -80,7 +69,7 @@ class Closing {
     std::vector<std::uint8_t> surface(points_);
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < particles_; ++a) surface[a] = at_surface(static_cast<std::int32_t>(a));
-    for (std::size_t i = 0; i < g_.images.size(); ++i) surface[particles_ + i] = surface[g_.images[i].parent];
+    g_.ghosts.fill<Mirrors::scalar>(surface);
     held_.resize(particles_);
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < particles_; ++a) {
@@ -94,7 +83,7 @@ class Closing {
   /// But for a few rows, such as those at walls that lie askew to the lattice, which are not worth the work.
   bool is_lattice() const {
     const Vectors n = lopsidedness();
-    const double irregular = sum(particles_, [&](std::size_t a) {
+    const double irregular = deterministic_sum(particles_, [&](std::size_t a) {
       return n[a].norm() * g_.spacing > closed_enough * g_.volumes[a] ? 1.0 : 0.0;
     });
     return irregular <= 0.1 * static_cast<double>(held_count_);
@@ -114,19 +103,13 @@ class Closing {
     return out;
   }
 
-  /// Of the particles, and of the images after them.
-  Vectors spread(const Vectors& of_particles) const {
-    Vectors v = of_particles;
-    v.reserve(points_);
-    for (const Image& image : g_.images) v.push_back(g_.reflections[image.wall] * v[image.parent]);
+  /// Of the particles, and of the ghosts after them.
+  Vectors spread(Vectors v) const {
+    g_.ghosts.fill<Mirrors::direction>(v);
     return v;
   }
   Matrices mirrored(Matrices m) const {
-    m.reserve(points_);
-    for (const Image& image : g_.images) {
-      const Mat2& r = g_.reflections[image.wall];
-      m.push_back(r * m[image.parent] * r);
-    }
+    g_.ghosts.fill<Mirrors::tensor>(m);
     return m;
   }
 
@@ -160,8 +143,8 @@ class Closing {
   }
 
   double rms(const Vectors& residual) const {
-    const double squares =
-        sum(particles_, [&](std::size_t a) { return (residual[a] / g_.volumes[a]).squaredNorm(); });
+    const double squares = deterministic_sum(
+        particles_, [&](std::size_t a) { return (residual[a] / g_.volumes[a]).squaredNorm(); });
     return g_.spacing * std::sqrt(squares / static_cast<double>(held_count_));
   }
 

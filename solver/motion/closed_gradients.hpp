@@ -4,24 +4,23 @@
 #include <span>
 #include <vector>
 
-#include "solver/boundary/wall.hpp"
+#include "solver/boundary/ghosts.hpp"
 #include "solver/motion/pair_stencils.hpp"
 
 namespace porosph {
 
 /// A configuration's corrected gradients, sum_b (f_b - f_a) L_a G_ab with the stencils' G_ab = w_ab x_ab.
 struct CorrectedGradients {
-  const PairStencils& stencils;       ///< of the particles
-  std::span<const double> volumes;    ///< of particles and images [m2]
-  std::span<const Mat2> correction;   ///< L of the particles
-  std::span<const Image> images;      ///< numbered on after the particles
-  std::span<const Mat2> reflections;  ///< of each wall
-  double spacing;                     ///< [m]
+  const PairStencils& stencils;      ///< of the particles
+  std::span<const double> volumes;   ///< of particles and ghosts [m2]
+  std::span<const Mat2> correction;  ///< L of the particles
+  const Ghosts& ghosts;
+  double spacing;  ///< [m]
 };
 
 /// With kappa, the gradient is sum_b (f_b - f_a) w_ab (L_a x_ab + kappa_b - kappa_a).
 struct Closure {
-  std::vector<Vec2> kappa;       ///< of particles and images [m]; empty where they are closed as they are
+  std::vector<Vec2> kappa;       ///< of particles and ghosts [m]; empty where they are closed as they are
   std::vector<Mat2> correction;  ///< L of the particles, so that linear fields still have exact gradients
 };
 

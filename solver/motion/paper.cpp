@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/correction/kernel_correction.hpp"
+#include "solver/parallel.hpp"
 #include "solver/stabilisation/artificial_stress.hpp"
 
 namespace porosph {
@@ -15,7 +16,7 @@ PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, V
       viscosity_{formulation.artificial_viscosity_alpha, formulation.artificial_viscosity_beta},
       kernel_(model.smoothing_length),
       kernels_(paper_kernels(units)),
-      soil_(model),
+      soils_(model),
       skin_(0.2 * model.spacing),
       artificial_exponent_(kernel_.value(0) / kernel_.value(model.spacing)) {
   make_virtual_particles();
@@ -50,10 +51,9 @@ void PaperDynamics::make_virtual_particles() {
 
 void PaperDynamics::prepare() {
   const auto& position = model_.particles.position;
-  double moved = searched_.empty() ? never : 0;
-  for (std::size_t a = 0; a < searched_.size(); ++a)
-    moved = std::max(moved, (position[a] - searched_[a]).squaredNorm());
-  if (!(moved < 0.25 * skin_ * skin_)) search();
+  const double moved =
+      largest_of(searched_.size(), [&](std::size_t a) { return (position[a] - searched_[a]).squaredNorm(); });
+  if (searched_.empty() || !(moved < 0.25 * skin_ * skin_)) search();
   move_ghosts();
   make_gradients();
 }
@@ -64,9 +64,7 @@ void PaperDynamics::search() {
   const double reach = kernel_.support() + skin_;
   searched_ = position;
   points_ = position;
-  ghosts_.clear();
-  append_images(model_.walls, fixed_walls_, model_.walls.size(), reach, points_, ghosts_);
-  ghost_root_ = roots(ghosts_, n);
+  ghosts_ = Ghosts(model_.walls, fixed_walls_, model_.walls.size(), reach, points_);
   neighbours_ = find_neighbours(points_, n, reach);
   wall_neighbours_ = find_neighbours(position, virtual_points_, reach);
   runs_ = make_pair_runs(neighbours_);
@@ -105,9 +103,6 @@ void PaperDynamics::connect_arrays() {
   c.pressure = pressure_.data();
   for (int k = 0; k < 4; ++k) c.correction[k] = correction_[k].data();
   for (int k = 0; k < 2; ++k) c.wall_velocity[k] = wall_velocity_[k].data();
-  c.shear_modulus = soil_.shear_modulus.data(), c.bulk_modulus = soil_.bulk_modulus.data();
-  c.no_tension = soil_.no_tension.data();
-  c.one_soil = model_.soils.size() == 1;
   c.weight = reinterpret_cast<double*>(weight_.data());
   for (int k = 0; k < PaperArrays::sums; ++k) c.sum[k] = sum_[k].data();
 }
@@ -121,27 +116,27 @@ void PaperDynamics::move_ghosts() {
     points_[a] = position[a];
     x[a] = position[a].x(), y[a] = position[a].y();
   }
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    const Vec2 ghost = points_[n + i] = model_.walls[ghosts_[i].wall].mirrored(points_[ghosts_[i].parent]);
+  ghosts_.for_each([&](std::size_t i) {
+    const Vec2 ghost = points_[n + i] = ghosts_.wall(i).mirrored(points_[ghosts_.parent(i)]);
     x[n + i] = ghost.x(), y[n + i] = ghost.y();
-  }
+  });
 }
 
 void PaperDynamics::make_gradients() {
   const Particles& p = model_.particles;
-  const double *mass = p.mass.data(), *rho = p.density.data(), *shear = soil_.shear_modulus.data();
+  const double *mass = p.mass.data(), *rho = p.density.data();
   double *volume = volume_.data(), *density = density_.data(), *sound = sound_.data();
-  const bool one_soil = arrays_.one_soil;
+  std::vector<double> shear_moduli;
+  for (const Soil& soil : model_.soils) shear_moduli.push_back(soil.shear_modulus());
+  const double* shear = shear_moduli.data();
+  const std::int32_t* soil = p.soil.data();
 #pragma omp parallel for simd schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
     volume[a] = mass[a] / rho[a];
     density[a] = rho[a];
-    sound[a] = std::sqrt(shear[one_soil ? 0 : a] / rho[a]);  // eq. (16)
+    sound[a] = std::sqrt(shear[soil[a]] / rho[a]);  // eq. (16)
   }
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
-    volume_[ghost] = volume_[parent], density_[ghost] = density_[parent], sound_[ghost] = sound_[parent];
-  }
+  for (std::vector<double>* scalars : {&volume_, &density_, &sound_}) ghosts_.fill<Mirrors::scalar>(*scalars);
 #pragma omp parallel for schedule(static)
   for (std::int32_t run = 0; run < runs_.count(); ++run) {
     kernels_.geometry(arrays_, run);
@@ -210,11 +205,8 @@ void PaperDynamics::fill_ghost_velocities() {
   double *x = velocity_[0].data(), *y = velocity_[1].data();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < v.size(); ++a) x[a] = v[a].x(), y[a] = v[a].y();
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    const std::size_t ghost = v.size() + i, parent = ghosts_[i].parent;
-    const Vec2 mirrored = model_.walls[ghosts_[i].wall].reflection() * Vec2(x[parent], y[parent]);
-    x[ghost] = mirrored.x(), y[ghost] = mirrored.y();
-  }
+  ghosts_.fill<Mirrors::motion>([&](std::size_t k) { return Vec2(x[k], y[k]); },
+                                [&](std::size_t k, const Vec2& u) { x[k] = u.x(), y[k] = u.y(); });
 }
 
 void PaperDynamics::fill_stress() {
@@ -229,13 +221,13 @@ void PaperDynamics::fill_stress() {
     xx[a] = s.xx * scale, yy[a] = s.yy * scale, xy[a] = s.xy * scale;
     pressure[a] = p.pore_pressure[a];
   }
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    const std::size_t ghost = p.size() + i, parent = ghosts_[i].parent;
-    const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
-    const Mat2 s = r * (Mat2() << xx[parent], xy[parent], xy[parent], yy[parent]).finished() * r;
-    xx[ghost] = s(0, 0), yy[ghost] = s(1, 1), xy[ghost] = s(0, 1);
-    pressure[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghost_root_[i]], points_[ghost]);
-  }
+  ghosts_.fill<Mirrors::tensor>(
+      [&](std::size_t k) { return (Mat2() << xx[k], xy[k], xy[k], yy[k]).finished(); },
+      [&](std::size_t k, const Mat2& s) { xx[k] = s(0, 0), yy[k] = s(1, 1), xy[k] = s(0, 1); });
+  ghosts_.for_each([&](std::size_t i) {
+    const std::size_t ghost = p.size() + i;
+    pressure[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghosts_.root(i)], points_[ghost]);
+  });
   if (per_density) return;
 #pragma omp parallel for simd schedule(static)
   for (std::size_t i = 0; i < points_.size(); ++i) xx[i] += pressure[i], yy[i] += pressure[i];
@@ -252,12 +244,12 @@ void PaperDynamics::fill_artificial_stress() {
     any = any || !artificial_stress_[a].isZero(0);
   }
   any_tension_ = any;
-  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
-    const Eigen::Vector3d& parent = artificial_stress_[ghosts_[i].parent];
-    const Mat2 r = model_.walls[ghosts_[i].wall].reflection();
-    const Mat2 mirrored = r * (Mat2() << parent[0], parent[2], parent[2], parent[1]).finished() * r;
-    artificial_stress_[p.size() + i] = {mirrored(0, 0), mirrored(1, 1), mirrored(0, 1)};
-  }
+  auto& r = artificial_stress_;
+  ghosts_.fill<Mirrors::tensor>(
+      [&](std::size_t k) { return (Mat2() << r[k][0], r[k][2], r[k][2], r[k][1]).finished(); },
+      [&](std::size_t k, const Mat2& m) {
+        r[k] = {m(0, 0), m(1, 1), m(0, 1)};
+      });
 }
 
 /// The sums of eqs. (17), (24) and (25) without C_ab.
@@ -351,6 +343,7 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void PaperDynamics::strain(double dt) {
   fill_ghost_velocities();
+  arrays_.soils = soils_.view();
   arrays_.effective_stress = &model_.particles.stress.data()->xx;
   arrays_.own_density = model_.particles.density.data();
 #pragma omp parallel for schedule(static)

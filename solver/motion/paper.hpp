@@ -4,12 +4,13 @@
 #include <array>
 #include <vector>
 
+#include "solver/boundary/ghosts.hpp"
 #include "solver/kernel/cubic_spline.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/motion/kernels/paper_kernels.hpp"
 #include "solver/motion/kernels/record.hpp"
 #include "solver/motion/paper_form.hpp"
-#include "solver/motion/soil_arrays.hpp"
+#include "solver/motion/soil_views.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
 #include "solver/stabilisation/artificial_viscosity.hpp"
 
@@ -54,7 +55,7 @@ class PaperDynamics final : public Dynamics {
   ArtificialViscosity viscosity_;
   CubicSpline<2> kernel_;
   const PaperKernels& kernels_;
-  SoilArrays soil_;
+  SoilViews soils_;
   double skin_;                 ///< neighbours are searched this much beyond the support [m]
   double artificial_exponent_;  ///< n = W(0) / W(dx)
 
@@ -68,9 +69,8 @@ class PaperDynamics final : public Dynamics {
   std::array<std::vector<double>, 2> position_, velocity_;
   std::array<std::vector<double>, 3> stress_;  ///< as the kernels ask for it
   std::vector<double> volume_, density_, sound_, pressure_;
-  std::vector<Image> ghosts_;
-  std::vector<std::int32_t> ghost_root_;  ///< the particle that each ghost stems from
-  std::vector<Vec2> searched_;            ///< positions at the last search
+  Ghosts ghosts_;               ///< behind rollers
+  std::vector<Vec2> searched_;  ///< positions at the last search
   NeighbourList neighbours_, wall_neighbours_;
   PairRuns runs_;  ///< of neighbours_
   PaperArrays arrays_{};

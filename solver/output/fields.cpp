@@ -2,22 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
+#include "solver/particles/field_table.hpp"
 #include "solver/simulation/reference_errors.hpp"
 
 namespace porosph {
 namespace {
 
-const std::vector<std::string> vector_components = {"X", "Y", "Z"};
-const std::vector<std::string> tensor_components = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+using Values = decltype(FrameField::values);
 
-struct Field {
-  FieldDescription description;
-  std::function<decltype(FrameField::values)(Simulation&)> values;
+/// A field and how it is read.
+struct Reader {
+  std::string_view field;
+  std::function<Values(Simulation&)> values;
 };
 
 /// One value per particle.
@@ -67,88 +69,87 @@ std::vector<double> principal(const Particles& p) {
 
 const Particles& particles(Simulation& s) { return s.model().particles; }
 
-const std::vector<Field>& registry() {
-  static const std::vector<Field> fields = {
-      {{"Displacement", "m", "from the position at t = 0", vector_components},
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all = {
+      {particle_fields::displacement.name,
        [](Simulation& s) {
          return vectors(particles(s), [&](auto i) { return particles(s).displacement(i); });
        }},
-      {{"Velocity", "m/s", "at the frame's time", vector_components},
+      {particle_fields::velocity.name,
        [](Simulation& s) {
          const std::vector<Vec2> v = s.velocities();
          return vectors(particles(s), [&](auto i) { return v[i]; });
        }},
-      {{"EffectiveStress", "Pa", "sigma', tension positive", tensor_components},
+      {particle_fields::effective_stress.name,
        [](Simulation& s) { return tensors(particles(s), [&](auto i) { return particles(s).stress[i]; }); }},
-      {{"TotalStress", "Pa", "sigma = sigma' + p_w I (eq. 12)", tensor_components},
+      {particle_fields::total_stress.name,
        [](Simulation& s) {
          return tensors(particles(s), [&](auto i) { return total_stress(particles(s), i); });
        }},
-      {{"PorePressure", "Pa", "p_w, negative in compression", {}},
-       [](Simulation& s) { return particles(s).pore_pressure; }},
-      {{"Density", "kg/m3", "mass of soil and pore water per volume", {}},
-       [](Simulation& s) { return particles(s).density; }},
-      {{"Mass", "kg/m", "per metre of thickness", {}}, [](Simulation& s) { return particles(s).mass; }},
-      {{"SmoothingLength", "m", "h of the kernel", {}},
+      {particle_fields::pore_pressure.name, [](Simulation& s) { return particles(s).pore_pressure; }},
+      {particle_fields::density.name, [](Simulation& s) { return particles(s).density; }},
+      {particle_fields::mass.name, [](Simulation& s) { return particles(s).mass; }},
+      {particle_fields::smoothing_length.name,
        [](Simulation& s) {
          return scalars<double>(particles(s), [&](auto) { return s.model().smoothing_length; });
        }},
-      {{"SoilId", "-", "number of the soil in the case, from 0", {}},
-       [](Simulation& s) { return particles(s).soil; }},
-      {{"ParticleId", "-", "number of the particle, from 0, the same in all frames", {}},
-       [](Simulation& s) { return particles(s).id; }},
-      {{"PrincipalStress", "Pa", "of sigma', the most tensile first", {"S1", "S2", "S3"}},
-       [](Simulation& s) { return principal(particles(s)); }},
-      {{"MeanStress", "Pa", "tr(sigma') / 3", {}},
+      {particle_fields::soil_id.name, [](Simulation& s) { return particles(s).soil; }},
+      {particle_fields::particle_id.name, [](Simulation& s) { return particles(s).id; }},
+      {particle_fields::principal_stress.name, [](Simulation& s) { return principal(particles(s)); }},
+      {particle_fields::mean_stress.name,
        [](Simulation& s) {
          return scalars<double>(particles(s), [&](auto i) { return particles(s).stress[i].mean(); });
        }},
-      {{"DeviatoricStress", "Pa", "s = sigma' - tr(sigma') / 3 I, that of sigma too", tensor_components},
+      {particle_fields::deviatoric_stress.name,
        [](Simulation& s) {
          return tensors(particles(s), [&](auto i) { return deviator(particles(s).stress[i]); });
        }},
-      {{"VonMisesStress", "Pa", "sqrt(3/2 s : s)", {}},
+      {particle_fields::von_mises_stress.name,
        [](Simulation& s) {
          return scalars<double>(particles(s),
                                 [&](auto i) { return von_mises_stress(particles(s).stress[i]); });
        }},
-      {{"Strain", "-", "Green-Lagrange strain since t = 0 (tensor shear, half of gamma)", tensor_components},
+      {particle_fields::strain.name,
        [](Simulation& s) {
          const std::vector<Strain> strain = strain_since_start(s.model());
          return tensors(particles(s), [&](auto i) { return strain[i]; });
        }},
-      {{"ExcessStress", "Pa", "sigma' less that of the case's exact solution at rest", tensor_components},
+      {particle_fields::excess_stress.name,
        [](Simulation& s) {
          const std::vector<Stress> exact = reference_stress(s);
          return tensors(particles(s), [&](auto i) { return particles(s).stress[i] + exact[i] * -1.0; });
        }},
   };
-  return fields;
+  return all;
+}
+
+/// What the soils' laws remember: zero where no soil has such a law.
+Values history(const Particles& p, std::string_view name) {
+  const auto found =
+      std::ranges::find_if(p.history, [&](const HistoryField& h) { return h.field.name == name; });
+  return found != p.history.end() ? found->values : std::vector<double>(p.size(), 0.0);
+}
+
+/// One of the table, or one that a law from outside remembers.
+FrameField read(Simulation& s, const std::string& name) {
+  const auto& all = readers();
+  if (const auto found = std::ranges::find(all, name, &Reader::field); found != all.end())
+    return {name, component_names(find_field(name)->kind), found->values(s)};
+  const auto& kept = particles(s).history;
+  const bool is_kept = std::ranges::any_of(kept, [&](const HistoryField& h) { return h.field.name == name; });
+  if (find_field(name) == nullptr && !is_kept)
+    throw std::invalid_argument(fmt::format("no field is called '{}'", name));
+  return {name, {}, history(particles(s), name)};
 }
 
 }  // namespace
-
-const std::vector<FieldDescription>& known_fields() {
-  static const std::vector<FieldDescription> all = [] {
-    std::vector<FieldDescription> list;
-    for (const Field& f : registry()) list.push_back(f.description);
-    return list;
-  }();
-  return all;
-}
 
 Frame make_frame(Simulation& simulation, const std::vector<std::string>& names) {
   Frame frame;
   frame.step = simulation.step();
   frame.time = simulation.time();
   frame.points = vectors(particles(simulation), [&](auto i) { return particles(simulation).position[i]; });
-  for (const std::string& name : names) {
-    const auto& all = registry();
-    const auto field =
-        std::find_if(all.begin(), all.end(), [&](const Field& f) { return f.description.name == name; });
-    if (field == all.end()) throw std::invalid_argument(fmt::format("no field is called '{}'", name));
-    frame.fields.push_back({name, field->description.components, field->values(simulation)});
-  }
+  for (const std::string& name : names) frame.fields.push_back(read(simulation, name));
   return frame;
 }
 

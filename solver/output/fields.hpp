@@ -9,16 +9,8 @@
 
 namespace porosph {
 
-struct FieldDescription {
-  std::string name, unit, meaning;
-  std::vector<std::string> components;  ///< empty for a scalar
-};
-
-/// All fields, in the order of the documents.
-const std::vector<FieldDescription>& known_fields();
-
-/// The named fields of the present instant; nothing else is computed. Throws std::invalid_argument for an
-/// unknown name.
+/// The named fields of the present instant, of field_table() or of a law from outside; nothing else is
+/// computed. Throws std::invalid_argument for an unknown name.
 Frame make_frame(Simulation& simulation, const std::vector<std::string>& fields);
 
 }  // namespace porosph

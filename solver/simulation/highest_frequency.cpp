@@ -4,6 +4,7 @@
 #include <random>
 
 #include "solver/motion/dynamics.hpp"
+#include "solver/parallel.hpp"
 
 namespace porosph {
 namespace {
@@ -11,9 +12,7 @@ namespace {
 constexpr int iterations = 40;
 
 double norm(const std::vector<Vec2>& v) {
-  double squares = 0;
-  for (const Vec2& x : v) squares += x.squaredNorm();
-  return std::sqrt(squares);
+  return std::sqrt(deterministic_sum(v.size(), [&](std::size_t i) { return v[i].squaredNorm(); }));
 }
 
 /// So that nothing but the stress under a strain tells in the accelerations.
@@ -26,7 +25,7 @@ FormulationCase without_viscosity(FormulationCase f) {
 }  // namespace
 
 double highest_frequency(const FormulationCase& formulation, Model model) {
-  for (LinearElastic& soil : model.soils) soil.no_tension = false;
+  for (Soil& soil : model.soils) soil = Soil(LinearElastic{soil.elastic()});
   const auto dynamics = make_dynamics(without_viscosity(formulation), model);
   std::vector<Vec2>& v = model.particles.velocity;
   std::mt19937_64 random(1);

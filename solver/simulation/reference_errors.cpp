@@ -43,7 +43,7 @@ ErrorNorms norms(const Particles& p, const std::function<double(std::size_t)>& c
 ReferenceColumn reference_column(const Case& scene) {
   const Ground ground = ground_of(scene);
   const SoilCase& soil = scene.soils[0];
-  const LinearElastic elastic = LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio);
+  const Elasticity elastic = Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio);
   Column column{.height = ground.top - ground.bottom,
                 .bulk_modulus = elastic.bulk_modulus,
                 .shear_modulus = elastic.shear_modulus,

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "solver/model/particles.hpp"
+#include "solver/particles/particles.hpp"
 
 namespace porosph {
 

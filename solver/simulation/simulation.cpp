@@ -51,13 +51,8 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
   return runaways;
 }
 
-/// What changes of particles; the rest the case gives.
 void visit_particles(StateArchive& state, Particles& p) {
-  state.array("position", p.position);
-  state.array("velocity", p.velocity);
-  state.array("stress", p.stress);
-  state.array("pore_pressure", p.pore_pressure);
-  state.array("density", p.density);
+  p.for_each_changing([&](std::string_view name, auto& values) { state.array(name, values); });
 }
 
 }  // namespace
@@ -76,14 +71,18 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
 }
 
-void Simulation::set_material(const std::string& soil, std::shared_ptr<Material> material) {
+void Simulation::set_law(const std::string& soil, AnyLaw law) {
   const auto& soils = scene_.soils;
   const auto found = std::ranges::find(soils, soil, &SoilCase::name);
   if (found == soils.end()) throw std::invalid_argument(fmt::format("no soil is called '{}'", soil));
-  if (found->no_tension)
-    throw std::invalid_argument(fmt::format("soil '{}' is without tension: it cannot have a material", soil));
-  materials_.resize(soils.size());
-  materials_[found - soils.begin()] = std::move(material);
+  Soil& old = model_.soils[found - soils.begin()];
+  Soil changed(std::move(law));
+  if (changed.constrained_modulus() > old.constrained_modulus() * (1 + 1e-12))
+    throw std::invalid_argument(
+        fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",
+                    soil, changed.constrained_modulus(), old.constrained_modulus()));
+  changed.add_history(model_.particles);
+  old = std::move(changed);
 }
 
 double Simulation::damping() const {
@@ -119,7 +118,6 @@ void Simulation::advance() {
   accelerations_valid_ = false;
   ++step_;
   if (instability_) return;
-  if (!materials_.empty()) apply_materials(materials_, model_, *dynamics_, dt_);
   dynamics_->strain(dt_);
   if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
 }

@@ -9,7 +9,6 @@
 #include "solver/model/model.hpp"
 #include "solver/monitor/instability.hpp"
 #include "solver/motion/dynamics.hpp"
-#include "solver/simulation/apply_materials.hpp"
 #include "solver/simulation/probe.hpp"
 #include "solver/simulation/relaxation.hpp"
 
@@ -22,9 +21,9 @@ class Simulation {
   /// `dynamics`: another implementation than the case's own, to be compared with it.
   explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
 
-  /// Gives a soil a material other than linear elastic. Throws std::invalid_argument where no soil has that
-  /// name or it is one without tension.
-  void set_material(const std::string& soil, std::shared_ptr<Material> material);
+  /// Gives a soil another law, before the first step. Throws std::invalid_argument where no soil has that
+  /// name, or where the law is stiffer than the soil that sets the time step.
+  void set_law(const std::string& soil, AnyLaw law);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();
@@ -82,7 +81,6 @@ class Simulation {
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
   std::vector<Probe> probes_;
-  Materials materials_;  ///< empty where all soils are linear elastic
   double courant_ = 0, dt_ = 0;
   std::int64_t step_ = 0, last_step_ = 0;
   std::vector<Vec2> accelerations_;

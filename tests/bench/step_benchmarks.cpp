@@ -8,7 +8,9 @@
 #include "solver/kernel/cubic_spline.hpp"
 #include "solver/motion/dynamics.hpp"
 #include "solver/neighbours/neighbour_list.hpp"
+#include "solver/soil/laws.hpp"
 #include "tests/box_of_soil.hpp"
+#include "tests/law_from_outside.hpp"
 
 namespace porosph {
 namespace {
@@ -77,6 +79,19 @@ void strain(benchmark::State& state, Motion motion) {
   count_particles(state, soil.model);
 }
 
+const Elasticity elastic = Elasticity::from_young(15e6, 0.33);  // as in box_of_soil()
+const DruckerPrager yielding = DruckerPrager::from_mohr_coulomb(elastic, 5e3, 30, 5);
+
+/// The consistent form with another law: its ratio to LinearElastic's is what the law costs.
+void strain_of_law(benchmark::State& state, const AnyLaw& law) {
+  Loaded soil(Motion::consistent, state.range(0));
+  Soil changed(law);
+  changed.add_history(soil.model.particles);
+  soil.model.soils[0] = changed;
+  for (auto _ : state) soil.dynamics->strain(1e-4);
+  count_particles(state, soil.model);
+}
+
 BENCHMARK(kernel_slope);
 BENCHMARK(neighbour_search)->Arg(1024)->Arg(102400);
 BENCHMARK_CAPTURE(geometry, proposed, Motion::proposed)->Arg(1024)->Arg(102400);
@@ -84,6 +99,14 @@ BENCHMARK_CAPTURE(acceleration, proposed, Motion::proposed)->Arg(1024)->Arg(1024
 BENCHMARK_CAPTURE(acceleration, consistent, Motion::consistent)->Arg(1024)->Arg(102400);
 BENCHMARK_CAPTURE(strain, proposed, Motion::proposed)->Arg(1024)->Arg(102400);
 BENCHMARK_CAPTURE(strain, consistent, Motion::consistent)->Arg(1024)->Arg(102400);
+BENCHMARK_CAPTURE(strain_of_law, linear_elastic, LinearElastic{elastic})->Arg(10000);
+BENCHMARK_CAPTURE(strain_of_law, drucker_prager, yielding)->Arg(10000);
+BENCHMARK_CAPTURE(strain_of_law, elastic_from_outside,
+                  std::make_shared<FromOutside<LinearElastic>>(LinearElastic{elastic}))
+    ->Arg(10000);
+BENCHMARK_CAPTURE(strain_of_law, drucker_prager_from_outside,
+                  std::make_shared<FromOutside<DruckerPrager>>(yielding))
+    ->Arg(10000);
 
 }  // namespace
 }  // namespace porosph

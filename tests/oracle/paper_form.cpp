@@ -54,7 +54,7 @@ class PaperForm {
                 .volume = p.mass[a] / p.density[a],
                 .density = p.density[a],
                 .pressure = p.pore_pressure[a],
-                .sound = std::sqrt(now_.soils[p.soil[a]].shear_modulus / p.density[a])};
+                .sound = std::sqrt(now_.soils[p.soil[a]].shear_modulus() / p.density[a])};
     point.stress << s.xx, s.xy, s.xy, s.yy;
     return point;
   }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/constitutive/linear_elastic.hpp"
 #include "solver/motion/kernels/mid_step.hpp"
+#include "solver/motion/kernels/soil_step.hpp"
 #include "solver/motion/kernels/vectors.hpp"
 #include "solver/stabilisation/bulk_viscosity.hpp"
 
@@ -52,12 +52,12 @@ inline void by_vectors(const PairStencils::Piece& piece, const PairStencils::Str
 
 /// sum_b (v_b - v_a) (x) G_ab of a stretch.
 void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
-  const PairStencils& s = *c.stencils;
+  const PairStencils& s = *c.reference.stencils;
   const PairStencils::Stretch stretch = s.stretches[piece.stretch];
   const std::int32_t* offset = s.offset.data();
   const PairGeometry* g = s.shared.data();
   by_vectors(piece, stretch, [&](std::int32_t a) {
-    const double *vx = c.velocity[0] + a, *vy = c.velocity[1] + a;
+    const double *vx = c.motion.velocity[0] + a, *vy = c.motion.velocity[1] + a;
     const PairGeometry own = g[stretch.pairs];
     const Vector x = load(vx), y = load(vy);
     Vector sum_xx = -own.x * x, sum_xy = -own.y * x, sum_yx = -own.x * y, sum_yy = -own.y * y;
@@ -85,10 +85,11 @@ inline PairGeometry sum_of(const SinglePairGeometry* g, std::int64_t first, std:
 template <class Real>
 inline void own_rates(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
                       std::int32_t first, Row* out) {
-  const PairStencils& s = *c.stencils;
+  const PairStencils& s = *c.reference.stencils;
   const std::int32_t* index = s.index.data();
   const auto velocity = [&](std::int32_t b) {
-    return *reinterpret_cast<const Pair*>(reinterpret_cast<const double*>(c.records + b) + velocity_lane);
+    return *reinterpret_cast<const Pair*>(reinterpret_cast<const double*>(c.fluxes.records + b) +
+                                          velocity_lane);
   };
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
@@ -108,12 +109,12 @@ inline void own_rates(const ConsistentArrays& c, const PairGeometryIn<Real>* g, 
 
 /// What closed gradients add: sum_b (v_b - v_a) (x) w_ab (kappa_b - kappa_a).
 void add_closing_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
-  const double *vx = c.velocity[0], *vy = c.velocity[1];
+  const double *vx = c.motion.velocity[0], *vy = c.motion.velocity[1];
   for (std::int32_t a = tile.first; a < tile.last; ++a) {
     Pair x{}, y{};
-    const Pair own = load_pair(c.kappa, a);
-    c.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const Pair k = g.w * (load_pair(c.kappa, b) - own);
+    const Pair own = load_pair(c.reference.kappa, a);
+    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const Pair k = g.w * (load_pair(c.reference.kappa, b) - own);
       x += k * (vx[b] - vx[a]), y += k * (vy[b] - vy[a]);
     });
     *rate[xx].of(a, tile.first) += x[0], *rate[xy].of(a, tile.first) += x[1];
@@ -123,19 +124,19 @@ void add_closing_rates(const ConsistentArrays& c, const TileRange& tile, Row* ra
 
 /// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
 inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
-  const bool single = !c.stencils->own_single.empty();
+  const bool single = !c.reference.stencils->own_single.empty();
   for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
     if (piece->stretch != PairStencils::own_list)
       shared_rates(c, *piece, tile.first, rate);
     else if (single)
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_rates(c, c.stencils->own_single.data(), a, tile.first, rate);
+        own_rates(c, c.reference.stencils->own_single.data(), a, tile.first, rate);
     else
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_rates(c, c.stencils->own.data(), a, tile.first, rate);
+        own_rates(c, c.reference.stencils->own.data(), a, tile.first, rate);
   }
-  const double *lxx = c.correction[xx] + tile.first, *lxy = c.correction[xy] + tile.first;
-  const double *lyx = c.correction[yx] + tile.first, *lyy = c.correction[yy] + tile.first;
+  const double *lxx = c.reference.correction[xx] + tile.first, *lxy = c.reference.correction[xy] + tile.first;
+  const double *lyx = c.reference.correction[yx] + tile.first, *lyy = c.reference.correction[yy] + tile.first;
   const std::int32_t count = tile.last - tile.first;
 #pragma omp simd
   for (std::int32_t i = 0; i < count; ++i) {
@@ -144,11 +145,11 @@ inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* ra
     rate[xx].value[i] = axx * lxx[i] + axy * lxy[i], rate[xy].value[i] = axx * lyx[i] + axy * lyy[i];
     rate[yx].value[i] = ayx * lxx[i] + ayy * lxy[i], rate[yy].value[i] = ayx * lyx[i] + ayy * lyy[i];
   }
-  if (c.kappa) add_closing_rates(c, tile, rate);
+  if (c.reference.kappa) add_closing_rates(c, tile, rate);
 }
 
 void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
-  const TileRange tile = range_of(*c.stencils, number);
+  const TileRange tile = range_of(*c.reference.stencils, number);
   Row rate[4];
   tile_rates(c, tile, rate);
   for (std::int32_t i = 0; i < tile.last - tile.first; ++i)
@@ -158,79 +159,152 @@ void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
 /// By value: std::max keeps the loop from becoming vector code.
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// F, stress and density after the step, P and the flux fill P L - mu (dF/dt + k (F - I)).
-template <bool one_soil>
-LargestChange material_step(const ConsistentArrays& c, const TileRange& tile, const Row* rate, Row* piola,
-                            double dt) {
-  const std::int32_t first = tile.first, count = tile.last - tile.first;
-  double *dxx = c.deformation[xx] + first, *dxy = c.deformation[xy] + first;
-  double *dyx = c.deformation[yx] + first, *dyy = c.deformation[yy] + first;
-  double *stress = c.stress + 4 * first, *density = c.density + first;
-  double *qxx = c.flux[xx] + first, *qxy = c.flux[xy] + first, *qyx = c.flux[yx] + first,
-         *qyy = c.flux[yy] + first;
-  const double *lxx = c.correction[xx] + first, *lxy = c.correction[xy] + first;
-  const double *lyx = c.correction[yx] + first, *lyy = c.correction[yy] + first;
-  const double *vx = c.velocity[0] + first, *vy = c.velocity[1] + first;
-  const double* reference_density = c.reference_density + first;
-  const std::int32_t soil = one_soil ? 0 : first;
-  const double *shear = c.shear_modulus + soil, *bulk = c.bulk_modulus + soil,
-               *no_tension = c.no_tension + soil;
-  const double* fill = c.fill + first;
-  const double mu = c.zero_energy_viscosity, elastic = c.zero_energy_rate;
-  const double bulk_length = c.bulk_length, half = 0.5 * dt;
-  double strain = 0, speed_squared = 0;
-#pragma omp simd reduction(max : strain, speed_squared)
-  for (std::int32_t i = 0; i < count; ++i) {
-    const double rxx = rate[xx].value[i], rxy = rate[xy].value[i];
-    const double ryx = rate[yx].value[i], ryy = rate[yy].value[i];
-    const double mxx = dxx[i] + half * rxx, mxy = dxy[i] + half * rxy;
-    const double myx = dyx[i] + half * ryx, myy = dyy[i] + half * ryy;
-    const Gradient gradient = mid_step_gradient({rxx, rxy, ryx, ryy}, {mxx, mxy, myx, myy});
-    const std::int32_t k = one_soil ? 0 : i;
-    const LinearElastic material{shear[k], bulk[k], no_tension[k] != 0};
-    const Stress s = material.update({stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]},
-                                     gradient, dt);
-    stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
+/// The arrays of a tile, each from the tile's first particle on, and what a step does with them.
+struct TileStep {
+  TileStep(const ConsistentArrays& c, const TileRange& tile, const Row* rates, Row* piola_rows, double step)
+      : particle(tile.first),
+        vx(c.motion.velocity[0] + tile.first),
+        vy(c.motion.velocity[1] + tile.first),
+        reference_density(c.reference.density + tile.first),
+        fill(c.reference.fill + tile.first),
+        stress(c.state.stress + 4 * tile.first),
+        density(c.state.density + tile.first),
+        mu(c.control.viscosity),
+        elastic(c.control.rate),
+        bulk_length(c.control.bulk_length),
+        dt(step),
+        half(0.5 * step) {
+    for (int k = 0; k < 4; ++k) {
+      rate[k] = rates[k].value, piola[k] = piola_rows[k].value;
+      deformation[k] = c.state.deformation[k] + tile.first;
+      correction[k] = c.reference.correction[k] + tile.first;
+      flux[k] = c.fluxes.flux[k] + tile.first;
+    }
+  }
 
-    const double fxx = dxx[i] + dt * rxx, fxy = dxy[i] + dt * rxy;
-    const double fyx = dyx[i] + dt * ryx, fyy = dyy[i] + dt * ryy;
-    dxx[i] = fxx, dxy[i] = fxy, dyx[i] = fyx, dyy[i] = fyy;
+  /// Velocity gradient at the middle of the step.
+  Gradient gradient(std::int32_t i) const {
+    const double rxx = rate[xx][i], rxy = rate[xy][i], ryx = rate[yx][i], ryy = rate[yy][i];
+    return mid_step_gradient({rxx, rxy, ryx, ryy},
+                             {deformation[xx][i] + half * rxx, deformation[xy][i] + half * rxy,
+                              deformation[yx][i] + half * ryx, deformation[yy][i] + half * ryy});
+  }
+  Stress old_stress(std::int32_t i) const {
+    return {stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]};
+  }
+  void store_stress(std::int32_t i, const Stress& s) const {
+    stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
+  }
+
+  /// F and density after the step, P and the flux fill P L - mu (dF/dt + k (F - I)) of the stress `s`.
+  void deform(std::int32_t i, const Stress& s, double modulus, double dilatation, double& strain,
+              double& speed_squared) const {
+    const double rxx = rate[xx][i], rxy = rate[xy][i], ryx = rate[yx][i], ryy = rate[yy][i];
+    const double fxx = deformation[xx][i] + dt * rxx, fxy = deformation[xy][i] + dt * rxy;
+    const double fyx = deformation[yx][i] + dt * ryx, fyy = deformation[yy][i] + dt * ryy;
+    deformation[xx][i] = fxx, deformation[xy][i] = fxy, deformation[yx][i] = fyx, deformation[yy][i] = fyy;
     density[i] = reference_density[i] / (fxx * fyy - fxy * fyx);
 
-    const double rho_c = std::sqrt(material.constrained_modulus() * density[i]);
-    const double q = bulk_viscosity(bulk_length, rho_c, gradient.trace());
+    const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * density[i]), dilatation);
     const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
     const double pxx = txx * fyy - s.xy * fxy, pxy = s.xy * fxx - txx * fyx;
     const double pyx = s.xy * fyy - tyy * fxy, pyy = tyy * fxx - s.xy * fyx;
-    piola[xx].value[i] = pxx, piola[xy].value[i] = pxy, piola[yx].value[i] = pyx, piola[yy].value[i] = pyy;
-    const double sxx = fill[i] * lxx[i], sxy = fill[i] * lxy[i], syx = fill[i] * lyx[i],
-                 syy = fill[i] * lyy[i];
-    qxx[i] = pxx * sxx + pxy * syx - mu * (rxx + elastic * (fxx - 1));
-    qxy[i] = pxx * sxy + pxy * syy - mu * (rxy + elastic * fxy);
-    qyx[i] = pyx * sxx + pyy * syx - mu * (ryx + elastic * fyx);
-    qyy[i] = pyx * sxy + pyy * syy - mu * (ryy + elastic * (fyy - 1));
+    piola[xx][i] = pxx, piola[xy][i] = pxy, piola[yx][i] = pyx, piola[yy][i] = pyy;
+    const double sxx = fill[i] * correction[xx][i], sxy = fill[i] * correction[xy][i],
+                 syx = fill[i] * correction[yx][i], syy = fill[i] * correction[yy][i];
+    flux[xx][i] = pxx * sxx + pxy * syx - mu * (rxx + elastic * (fxx - 1));
+    flux[xy][i] = pxx * sxy + pxy * syy - mu * (rxy + elastic * fxy);
+    flux[yx][i] = pyx * sxx + pyy * syx - mu * (ryx + elastic * fyx);
+    flux[yy][i] = pyx * sxy + pyy * syy - mu * (ryy + elastic * (fyy - 1));
     strain = larger(
         strain, larger(larger(std::abs(fxx - 1), std::abs(fyy - 1)), larger(std::abs(fxy), std::abs(fyx))));
     speed_squared = larger(speed_squared, vx[i] * vx[i] + vy[i] * vy[i]);
   }
+
+  std::int32_t particle;  ///< the tile's first
+  const double *vx, *vy, *reference_density, *fill;
+  double *stress, *density;
+  double mu, elastic, bulk_length, dt, half;
+  const double *rate[4], *correction[4];
+  double *piola[4], *deformation[4], *flux[4];
+};
+
+/// Particles first to last - 1 of the tile, which have this law.
+template <SoilLaw Law>
+LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last,
+                            const LawView& view) {
+  const TileStep t = tile;  // of this function's own: nothing that is written can be part of it
+  const Law law = *static_cast<const Law*>(view.law);
+  double* history[history_size<Law> + 1];
+  for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
+  double strain = 0, speed_squared = 0;
+#pragma omp simd reduction(max : strain, speed_squared)
+  for (std::int32_t i = first; i < last; ++i) {
+    const Gradient gradient = t.gradient(i);
+    typename Law::History q = load_history<Law>(history, i);
+    const Stress s = law.step(t.old_stress(i), gradient, t.dt, q);
+    store_history<Law>(history, i, q);
+    t.store_stress(i, s);
+    t.deform(i, s, law.constrained_modulus(s, q), gradient.trace(), strain, speed_squared);
+  }
+  return {strain, speed_squared};
+}
+
+/// The same of a law that is called for all of them at once.
+LargestChange external_step(const TileStep& tile, std::int32_t first, std::int32_t last,
+                            const LawView& view) {
+  const TileStep t = tile;
+  Row gradient[4], dilatation;
+#pragma omp simd
+  for (std::int32_t i = first; i < last; ++i) {
+    const Gradient g = t.gradient(i);
+    gradient[xx].value[i] = g.xx, gradient[xy].value[i] = g.xy;
+    gradient[yx].value[i] = g.yx, gradient[yy].value[i] = g.yy;
+    dilatation.value[i] = g.trace();
+  }
+  const auto& law = *static_cast<const ExternalLaw*>(view.law);
+  double* history[LawView::most_history];
+  for (std::size_t k = 0; k < view.history_count; ++k) history[k] = view.history[k] + t.particle + first;
+  SoilTile soil{.count = last - first,
+                .dt = t.dt,
+                .gradient = {},
+                .stress = t.stress + 4 * first,
+                .history = {history, view.history_count}};
+  for (int k = 0; k < 4; ++k) soil.gradient[k] = gradient[k].value + first;
+  law.step(soil);
+  const double modulus = law.elastic().constrained_modulus();
+  double strain = 0, speed_squared = 0;
+#pragma omp simd reduction(max : strain, speed_squared)
+  for (std::int32_t i = first; i < last; ++i)
+    t.deform(i, t.old_stress(i), modulus, dilatation.value[i], strain, speed_squared);
   return {strain, speed_squared};
 }
 
 void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestChange& largest) {
-  const TileRange tile = range_of(*c.stencils, number);
+  const TileRange tile = range_of(*c.reference.stencils, number);
   Row rate[4], piola[4];
   tile_rates(c, tile, rate);
-  const LargestChange change = c.one_soil ? material_step<true>(c, tile, rate, piola, dt)
-                                          : material_step<false>(c, tile, rate, piola, dt);
-  largest.strain = std::max(largest.strain, change.strain);
-  largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);
+  const TileStep step(c, tile, rate, piola, dt);
+  for_each_soil(c.state.soils, tile.first, tile.last,
+                [&](std::int32_t from, std::int32_t to, const LawView& law) {
+                  const std::int32_t first = from - tile.first, last = to - tile.first;
+                  LargestChange change;
+                  if (law.kind == Laws::size)
+                    change = external_step(step, first, last, law);
+                  else
+                    with_law(Laws{}, law.kind,
+                             [&]<class Law>() { change = material_step<Law>(step, first, last, law); });
+                  largest.strain = std::max(largest.strain, change.strain);
+                  largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);
+                });
+  const FluxView& f = c.fluxes;
   for (std::int32_t a = tile.first; a < tile.last; ++a) {
-    if (c.listed[a]) {
-      double* q = reinterpret_cast<double*>(c.records + a);
-      for (int k = 0; k < 4; ++k) q[k] = c.flux[k][a];
+    if (f.listed[a]) {
+      double* q = reinterpret_cast<double*>(f.records + a);
+      for (int k = 0; k < 4; ++k) q[k] = f.flux[k][a];
     }
-    if (c.mirrored[a])
-      for (int k = 0; k < 4; ++k) c.piola[4 * a + k] = piola[k].value[a - tile.first];
+    if (f.mirrored[a])
+      for (int k = 0; k < 4; ++k) f.piola[4 * a + k] = piola[k].value[a - tile.first];
   }
 }
 
@@ -239,14 +313,16 @@ enum : int { force_x, force_y, pressure_x, pressure_y };
 /// sum_b (P_a L_a + P_b L_b) G_ab with the zero-energy term, and sum_b (p_b - p_a) G_ab, of a stretch.
 template <bool wet>
 void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
-  const PairStencils& s = *c.stencils;
+  const PairStencils& s = *c.reference.stencils;
   const PairStencils::Stretch stretch = s.stretches[piece.stretch];
   const std::int32_t* offset = s.offset.data();
   const PairGeometry* g = s.shared.data();
-  const double viscous = 2 * c.zero_energy_viscosity;
+  const double viscous = 2 * c.control.viscosity;
   by_vectors(piece, stretch, [&](std::int32_t a) {
-    const double *qxx = c.flux[xx] + a, *qxy = c.flux[xy] + a, *qyx = c.flux[yx] + a, *qyy = c.flux[yy] + a;
-    const double *vx = c.motion[0] + a, *vy = c.motion[1] + a, *pw = c.pressure + a;
+    const double *qxx = c.fluxes.flux[xx] + a, *qxy = c.fluxes.flux[xy] + a, *qyx = c.fluxes.flux[yx] + a,
+                 *qyy = c.fluxes.flux[yy] + a;
+    const double *vx = c.motion.controlled[0] + a, *vy = c.motion.controlled[1] + a,
+                 *pw = wet ? c.motion.pressure + a : nullptr;
     const PairGeometry own = g[stretch.pairs];
     const double own_w = viscous * own.w;
     Vector fx = load(qxx) * own.x, fx2 = load(qxy) * own.y, fx3 = -own_w * load(vx);
@@ -272,8 +348,8 @@ void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, st
 template <class Real>
 inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
                      std::int32_t first, Row* out) {
-  const PairStencils& s = *c.stencils;
-  const Record* records = c.records;
+  const PairStencils& s = *c.reference.stencils;
+  const Record* records = c.fluxes.records;
   const std::int32_t* index = s.index.data();
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
@@ -291,7 +367,7 @@ inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, s
   }
   x += x2, y += y2, w += w2;
   const Lanes own = records[a].q;
-  const double viscous = 2 * c.zero_energy_viscosity;
+  const double viscous = 2 * c.control.viscosity;
   constexpr int v = velocity_lane, p = pressure_lane;
   *out[force_x].of(a, first) =
       x[xx] + y[xy] + own[xx] * sum.x + own[xy] * sum.y + viscous * (w[v] - own[v] * sum.w);
@@ -305,47 +381,47 @@ inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, s
 template <bool wet>
 void add_closing_accelerations(const ConsistentArrays& c, const TileRange& tile, double* out) {
   for (std::int32_t a = tile.first; a < tile.last; ++a) {
-    const double* own = c.piola + 4 * static_cast<std::int64_t>(a);
-    const Pair kappa = load_pair(c.kappa, a);
+    const double* own = c.fluxes.piola + 4 * static_cast<std::int64_t>(a);
+    const Pair kappa = load_pair(c.reference.kappa, a);
     double fx = 0, fy = 0;
     Pair pressure{};
-    c.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const double* other = c.piola + 4 * static_cast<std::int64_t>(b);
-      const Pair k = g.w * (load_pair(c.kappa, b) - kappa);
+    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const double* other = c.fluxes.piola + 4 * static_cast<std::int64_t>(b);
+      const Pair k = g.w * (load_pair(c.reference.kappa, b) - kappa);
       fx += (own[xx] + other[xx]) * k[0] + (own[xy] + other[xy]) * k[1];
       fy += (own[yx] + other[yx]) * k[0] + (own[yy] + other[yy]) * k[1];
-      if (wet) pressure += k * (c.pressure[b] - c.pressure[a]);
+      if (wet) pressure += k * (c.motion.pressure[b] - c.motion.pressure[a]);
     });
     if (wet) {
-      fx += c.deformation[yy][a] * pressure[0] - c.deformation[yx][a] * pressure[1];
-      fy += c.deformation[xx][a] * pressure[1] - c.deformation[xy][a] * pressure[0];
+      fx += c.state.deformation[yy][a] * pressure[0] - c.state.deformation[yx][a] * pressure[1];
+      fy += c.state.deformation[xx][a] * pressure[1] - c.state.deformation[xy][a] * pressure[0];
     }
-    out[2 * static_cast<std::int64_t>(a)] += fx / c.reference_density[a];
-    out[2 * static_cast<std::int64_t>(a) + 1] += fy / c.reference_density[a];
+    out[2 * static_cast<std::int64_t>(a)] += fx / c.reference.density[a];
+    out[2 * static_cast<std::int64_t>(a) + 1] += fy / c.reference.density[a];
   }
 }
 
 template <bool wet>
 void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out) {
-  const TileRange tile = range_of(*c.stencils, number);
+  const TileRange tile = range_of(*c.reference.stencils, number);
   Row sum[4];
-  const bool single = !c.stencils->own_single.empty();
+  const bool single = !c.reference.stencils->own_single.empty();
   for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
     if (piece->stretch != PairStencils::own_list)
       shared_sums<wet>(c, *piece, tile.first, sum);
     else if (single)
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_sums(c, c.stencils->own_single.data(), a, tile.first, sum);
+        own_sums(c, c.reference.stencils->own_single.data(), a, tile.first, sum);
     else
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_sums(c, c.stencils->own.data(), a, tile.first, sum);
+        own_sums(c, c.reference.stencils->own.data(), a, tile.first, sum);
   }
   const std::int32_t first = tile.first, count = tile.last - tile.first;
-  const double *fxx = c.deformation[xx] + first, *fxy = c.deformation[xy] + first;
-  const double *fyx = c.deformation[yx] + first, *fyy = c.deformation[yy] + first;
-  const double *lxx = c.correction[xx] + first, *lxy = c.correction[xy] + first;
-  const double *lyx = c.correction[yx] + first, *lyy = c.correction[yy] + first;
-  const double *rho = c.reference_density + first, *fill = c.fill + first;
+  const double *fxx = c.state.deformation[xx] + first, *fxy = c.state.deformation[xy] + first;
+  const double *fyx = c.state.deformation[yx] + first, *fyy = c.state.deformation[yy] + first;
+  const double *lxx = c.reference.correction[xx] + first, *lxy = c.reference.correction[xy] + first;
+  const double *lyx = c.reference.correction[yx] + first, *lyy = c.reference.correction[yy] + first;
+  const double *rho = c.reference.density + first, *fill = c.reference.fill + first;
   const double gx = c.gravity[0], gy = c.gravity[1];
   double* result = out + 2 * static_cast<std::int64_t>(first);
 #pragma omp simd
@@ -360,11 +436,11 @@ void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out
     const double per_mass = 1 / rho[i];
     result[2 * i] = fx * per_mass + gx, result[2 * i + 1] = fy * per_mass + gy;
   }
-  if (c.kappa) add_closing_accelerations<wet>(c, tile, out);
+  if (c.reference.kappa) add_closing_accelerations<wet>(c, tile, out);
 }
 
 void accelerate(const ConsistentArrays& c, std::int32_t tile, double* out) {
-  c.wet ? accelerate_tile<true>(c, tile, out) : accelerate_tile<false>(c, tile, out);
+  c.motion.pressure ? accelerate_tile<true>(c, tile, out) : accelerate_tile<false>(c, tile, out);
 }
 
 }  // namespace

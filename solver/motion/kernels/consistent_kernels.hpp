@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "solver/motion/kernels/record.hpp"
+#include "solver/motion/kernels/soil_view.hpp"
 #include "solver/motion/kernels/vector_units.hpp"
 #include "solver/motion/pair_stencils.hpp"
 
@@ -11,36 +12,57 @@ namespace porosph {
 
 constexpr int pressure_lane = 4, velocity_lane = 6;  ///< of a record; the flux comes first
 
-/// All that the loops read and write. Arrays are per particle unless they say "and image": those go on with
-/// the images. Tensors of the plane come as xx, xy, yx, yy.
-struct ConsistentArrays {
+// Arrays are per particle unless they say "and ghost": those go on with the ghosts. Tensors of the plane come
+// as xx, xy, yx, yy.
+
+/// What belongs to the reference configuration.
+struct ReferenceView {
   const PairStencils* stencils;
+  const double* correction[4];  ///< L, and ghost
+  const double* kappa;          ///< of closed gradients, two numbers each, and ghost [m]; or null
+  const double* density;        ///< [kg/m3]
+  const double* fill;           ///< share of its cell that a particle fills
+};
 
-  const double* correction[4];      ///< L, and image
-  const double* kappa;              ///< of closed gradients, two numbers each, and image [m]; or null
-  const double* reference_density;  ///< [kg/m3]
-  const double* fill;               ///< share of its cell that a particle fills
-  const double *shear_modulus, *bulk_modulus,
-      *no_tension;  ///< [Pa], [Pa], 1 or 0; one entry only in one soil
-  bool one_soil, wet;
-  double zero_energy_viscosity;  ///< mu [Pa s]
-  double zero_energy_rate;       ///< k, of the control's elastic part [1/s]
-  double bulk_length;            ///< bulk viscosity's strength times h [m]
-  double gravity[2];             ///< [m/s2]
+/// What the forces and rates are summed from.
+struct MotionView {
+  const double* velocity[2];  ///< and ghost [m/s]
+  const double*
+      controlled[2];       ///< v + k * displacement, which the zero-energy control acts on, and ghost [m/s]
+  const double* pressure;  ///< p_w, and ghost [Pa]; null in dry soil
+};
 
+/// The soil's state since the reference.
+struct SoilStateView {
+  SoilView soils;
   double* deformation[4];  ///< F
   double* stress;          ///< effective, four numbers each: xx, yy, zz, xy [Pa]
   double* density;         ///< [kg/m3]
+};
 
-  double* flux[4];            ///< fill P L - mu (dF/dt + k (F - I)), and image [Pa]
-  const double* pressure;     ///< p_w, and image [Pa]
-  const double* velocity[2];  ///< and image [m/s]
-  const double* motion[2];    ///< v + k * displacement, and image [m/s]
-
+/// What a step leaves for the next forces.
+struct FluxView {
+  double* flux[4];               ///< fill P L - mu (dF/dt + k (F - I)), and ghost [Pa]
   const std::uint8_t* listed;    ///< 1 where an own list names the particle: its record is kept
-  Record* records;               ///< flux, pressure and velocity or motion of those, and image
-  const std::uint8_t* mirrored;  ///< 1 where images or closed gradients ask for P
-  double* piola;                 ///< P of those, four numbers each, and image [Pa]
+  Record* records;               ///< flux, pressure and velocity or controlled motion of those, and ghost
+  const std::uint8_t* mirrored;  ///< 1 where ghosts or closed gradients ask for P
+  double* piola;                 ///< P of those, four numbers each, and ghost [Pa]
+};
+
+/// Zero-energy control and bulk viscosity.
+struct StabilisationView {
+  double viscosity;    ///< mu of the zero-energy control [Pa s]
+  double rate;         ///< k, of its elastic part [1/s]
+  double bulk_length;  ///< bulk viscosity's strength times h [m]
+};
+
+struct ConsistentArrays {
+  ReferenceView reference;
+  MotionView motion;
+  SoilStateView state;
+  FluxView fluxes;
+  StabilisationView control;
+  double gravity[2];  ///< [m/s2]
 };
 
 /// What the loops find out on their way.

@@ -15,5 +15,10 @@ inline Gradient mid_step_gradient(const Gradient& rate, const Gradient& m) {
           (rate.yx * m.yy - rate.yy * m.yx) * scale, (rate.yy * m.xx - rate.yx * m.xy) * scale};
 }
 
+/// The same where `rate` is dv over the coordinates at the start of the step, of which `half` is a half [s].
+inline Gradient step_gradient(const Gradient& rate, double half) {
+  return mid_step_gradient(rate, {1 + half * rate.xx, half * rate.xy, half * rate.yx, 1 + half * rate.yy});
+}
+
 }  // namespace
 }  // namespace porosph::POROSPH_VECTOR_UNITS

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "solver/constitutive/linear_elastic.hpp"
 #include "solver/motion/kernels/mid_step.hpp"
+#include "solver/motion/kernels/soil_step.hpp"
 #include "solver/motion/kernels/vectors.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
@@ -189,32 +189,63 @@ void rates(const Arrays& c, std::int32_t number) {
   }
 }
 
-template <bool one_soil>
-void material_step(const Arrays& c, const PairRuns::Run& run, double dt) {
+/// Effective stress and density of particles `first` to `last - 1`, which have this law.
+template <SoilLaw Law>
+void material_step(const Arrays& c, std::int32_t first, std::int32_t last, const LawView& view, double dt) {
   const double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
   const double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
-  const double *shear = c.shear_modulus, *bulk = c.bulk_modulus, *no_tension = c.no_tension;
   double *stress = c.effective_stress, *density = c.own_density;
+  const Law law = *static_cast<const Law*>(view.law);
+  double* history[history_size<Law> + 1];
+  for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k];
   const double half = 0.5 * dt;
 #pragma omp simd
-  for (std::int32_t a = run.first; a < run.last; ++a) {
-    const Gradient rate(xx[a], xy[a], yx[a], yy[a]);
-    const Gradient gradient =
-        mid_step_gradient(rate, {1 + half * rate.xx, half * rate.xy, half * rate.yx, 1 + half * rate.yy});
-    const std::int32_t k = one_soil ? 0 : a;
-    const LinearElastic material{shear[k], bulk[k], no_tension[k] != 0};
-    const Stress s = material.update({stress[4 * a], stress[4 * a + 1], stress[4 * a + 2], stress[4 * a + 3]},
-                                     gradient, dt);
+  for (std::int32_t a = first; a < last; ++a) {
+    const Gradient gradient = step_gradient({xx[a], xy[a], yx[a], yy[a]}, half);
+    typename Law::History q = load_history<Law>(history, a);
+    const Stress s =
+        law.step({stress[4 * a], stress[4 * a + 1], stress[4 * a + 2], stress[4 * a + 3]}, gradient, dt, q);
+    store_history<Law>(history, a, q);
     stress[4 * a] = s.xx, stress[4 * a + 1] = s.yy, stress[4 * a + 2] = s.zz, stress[4 * a + 3] = s.xy;
     const double half_strain = half * gradient.trace();  // d(rho)/dt = -rho tr(D)
     density[a] *= (1 - half_strain) / (1 + half_strain);
   }
 }
 
+/// The same of a law that is called for all of them at once.
+void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const LawView& view, double dt) {
+  constexpr std::int32_t longest = PairRuns::longest;
+  double gradient[4][longest];
+  const std::int32_t count = last - first;
+  const double half = 0.5 * dt;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t a = first + i;
+    const Gradient g = step_gradient({c.sum[Arrays::rate_xx][a], c.sum[Arrays::rate_xy][a],
+                                      c.sum[Arrays::rate_yx][a], c.sum[Arrays::rate_yy][a]},
+                                     half);
+    gradient[0][i] = g.xx, gradient[1][i] = g.xy, gradient[2][i] = g.yx, gradient[3][i] = g.yy;
+    const double half_strain = half * g.trace();
+    c.own_density[a] *= (1 - half_strain) / (1 + half_strain);
+  }
+  double* history[LawView::most_history];
+  for (std::size_t k = 0; k < view.history_count; ++k) history[k] = view.history[k] + first;
+  static_cast<const ExternalLaw*>(view.law)->step(
+      {.count = count,
+       .dt = dt,
+       .gradient = {gradient[0], gradient[1], gradient[2], gradient[3]},
+       .stress = c.effective_stress + 4 * first,
+       .history = {history, view.history_count}});
+}
+
 void strain(const Arrays& c, std::int32_t number, double dt) {
   rates(c, number);
   const PairRuns::Run run = c.runs->runs[number];
-  c.one_soil ? material_step<true>(c, run, dt) : material_step<false>(c, run, dt);
+  for_each_soil(c.soils, run.first, run.last, [&](std::int32_t first, std::int32_t last, const LawView& law) {
+    if (law.kind == Laws::size)
+      external_step(c, first, last, law, dt);
+    else
+      with_law(Laws{}, law.kind, [&]<class Law>() { material_step<Law>(c, first, last, law, dt); });
+  });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "solver/motion/kernels/soil_view.hpp"
 #include "solver/motion/kernels/vector_units.hpp"
 #include "solver/motion/pair_runs.hpp"
 
@@ -46,9 +47,7 @@ struct PaperArrays {
 
   const double* correction[4];     ///< L of particles: xx, xy, yx, yy
   const double* wall_velocity[2];  ///< of particles: sum over virtual neighbours of stickiness times G [1/m]
-  const double *shear_modulus, *bulk_modulus;  ///< of particles, or one entry in one soil [Pa]
-  const double* no_tension;                    ///< 1 or 0, as many
-  bool one_soil;
+  SoilView soils;
   double* effective_stress;  ///< of particles, four numbers each: xx, yy, zz, xy [Pa]
   double* own_density;       ///< of particles [kg/m3]
 

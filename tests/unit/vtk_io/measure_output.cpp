@@ -45,7 +45,7 @@ struct Way {
 std::vector<Way> ways() {
   const std::vector<std::string> usual = OutputCase{}.fields, few = {"EffectiveStress", "PorePressure"};
   std::vector<std::string> all = usual;
-  for (const std::string& field : optional_fields)
+  for (const std::string& field : optional_field_names())
     if (field != "ExcessStress") all.push_back(field);  // it has no theory
   constexpr auto vtp = FrameFormat::poly_data, vtu = FrameFormat::unstructured_grid;
   return {{"`vtp`, `none`, the usual ten fields", usual, {vtp, Compression::none}, {}, {}},

@@ -57,7 +57,7 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:21:11: key 'output.fields[0]' = \"Velocty\": must be one of Displacement, Velocity, "
        "EffectiveStress, "
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
-       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress; did you mean "
+       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, PlasticStrain; did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",
        "box.toml:21:19: key 'output.fields[1]' = \"Mass\": is given twice"},

@@ -49,7 +49,7 @@ TEST_CASE("energies of a simple state", "[monitor]") {
   std::vector<Vec2> velocity(p.size(), Vec2(3, 4));
   CHECK(kinetic_energy(p, velocity) == Approx(0.5 * mass * 25));
 
-  const LinearElastic& soil = model.soils[0];
+  const Elasticity& soil = model.soils[0].elastic();
   const double strain = -2e-3, lambda = soil.bulk_modulus - 2 * soil.shear_modulus / 3;
   for (Stress& s : p.stress) s = {lambda * strain, soil.constrained_modulus() * strain, lambda * strain, 0};
   CHECK(elastic_energy(model) == Approx(0.5 * soil.constrained_modulus() * strain * strain * area));

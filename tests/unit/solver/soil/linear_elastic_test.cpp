@@ -1,4 +1,4 @@
-#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/soil/linear_elastic.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@ namespace {
 
 const double youngs_modulus = 15e6, poissons_ratio = 0.33;
 const LinearElastic soil = LinearElastic::from_young(youngs_modulus, poissons_ratio);
+LinearElastic::History none;
 const Mat2 some_gradient = (Mat2() << 0.3, -0.8, 0.5, -0.7).finished();
 
 Eigen::Matrix3d tensor(const Stress& s) {
@@ -25,14 +26,14 @@ Eigen::Matrix3d in_space(const Mat2& m) {
 
 }  // namespace
 
-TEST_CASE("the moduli are those of Young's modulus and Poisson's ratio", "[constitutive]") {
+TEST_CASE("the moduli are those of Young's modulus and Poisson's ratio", "[soil]") {
   CHECK(soil.shear_modulus == Approx(youngs_modulus / 2.66));
   CHECK(soil.bulk_modulus == Approx(youngs_modulus / 1.02));
   CHECK(soil.constrained_modulus() ==
         Approx(youngs_modulus * (1 - poissons_ratio) / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio))));
 }
 
-TEST_CASE("the stress rate obeys the generalised Hooke's law, eqs. (26) to (28)", "[constitutive]") {
+TEST_CASE("the stress rate obeys the generalised Hooke's law, eqs. (26) to (28)", "[soil]") {
   const Eigen::Matrix3d strain = in_space(0.5 * (some_gradient + some_gradient.transpose()));
   const Eigen::Matrix3d rate = tensor(soil.elastic_rate(strain.topLeftCorner<2, 2>()));
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
@@ -46,7 +47,7 @@ TEST_CASE("the stress rate obeys the generalised Hooke's law, eqs. (26) to (28)"
   CHECK((forward - rate).norm() < 1e-14 * rate.norm());
 }
 
-TEST_CASE("a small step is the Jaumann rate of eq. (30)", "[constitutive]") {
+TEST_CASE("a small step is the Jaumann rate of eq. (30)", "[soil]") {
   const Stress old{-3e6, 1e6, -2e6, 4e6};
   const Eigen::Matrix3d s = tensor(old), d = in_space(0.5 * (some_gradient + some_gradient.transpose())),
                         w = in_space(0.5 *
@@ -57,29 +58,29 @@ TEST_CASE("a small step is the Jaumann rate of eq. (30)", "[constitutive]") {
     for (int b = 0; b < 3; ++b)
       for (int c = 0; c < 3; ++c) rate(a, b) += s(a, c) * w(b, c) + s(c, b) * w(a, c);
   const double dt = 1e-6;
-  const Eigen::Matrix3d quotient = (tensor(soil.update(old, some_gradient, dt)) - s) / dt;
+  const Eigen::Matrix3d quotient = (tensor(soil.step(old, some_gradient, dt, none)) - s) / dt;
   CHECK((quotient - rate).norm() < 1e-5 * rate.norm());
 }
 
-TEST_CASE("a rigid rotation turns the stress and nothing else", "[constitutive]") {
+TEST_CASE("a rigid rotation turns the stress and nothing else", "[soil]") {
   const double step = 0.3;                     // [rad]
   const double spin = 2 * std::tan(step / 2);  // mid-step gradient of that rotation, dt = 1
   const Mat2 gradient = (Mat2() << 0, -spin, spin, 0).finished();
   const Stress old{-3e4, 1e4, -2e4, 4e4};
   const Mat2 turn = (Mat2() << std::cos(step), -std::sin(step), std::sin(step), std::cos(step)).finished();
-  const Stress now = soil.update(old, gradient, 1);
+  const Stress now = soil.step(old, gradient, 1, none);
   CHECK((now.in_plane() - turn * old.in_plane() * turn.transpose()).norm() < 1e-9);
   CHECK(now.zz == old.zz);
 }
 
-TEST_CASE("a soil without tension has no stress where the mean would be tensile", "[constitutive]") {
+TEST_CASE("a soil without tension has no stress where the mean would be tensile", "[soil]") {
   const LinearElastic loose = LinearElastic::from_young(youngs_modulus, poissons_ratio, true);
-  const Stress pulled = loose.update({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3);
+  const Stress pulled = loose.step({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3, none);
   CHECK(pulled.in_plane().isZero(0));
   CHECK(pulled.zz == 0);
 
-  const Stress pressed = loose.update({-5e4, 1e4, -2e4, 3e4}, Mat2::Zero(), 1e-3);
+  const Stress pressed = loose.step({-5e4, 1e4, -2e4, 3e4}, Mat2::Zero(), 1e-3, none);
   CHECK(pressed.xx == -5e4);
   CHECK(pressed.yy == 1e4);
-  CHECK(soil.update({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3).mean() == Approx(2e4));
+  CHECK(soil.step({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3, none).mean() == Approx(2e4));
 }

@@ -1,11 +1,11 @@
-// Computes a case whose soils yield: drucker_prager CASE.toml FOLDER COHESION_IN_PA FRICTION_IN_DEGREES
+// Computes a case whose soils are softening clay: softening_clay CASE.toml FOLDER PEAK_IN_PA RESIDUAL_IN_PA
 #include <algorithm>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include "drucker_prager.hpp"
+#include "softening_clay.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/output/fields.hpp"
 #include "solver/simulation/run.hpp"
@@ -16,15 +16,19 @@ using namespace porosph;
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::cerr << "Usage: drucker_prager CASE.toml FOLDER COHESION_IN_PA FRICTION_IN_DEGREES\n";
+    std::cerr << "Usage: softening_clay CASE.toml FOLDER PEAK_IN_PA RESIDUAL_IN_PA\n";
     return 2;
   }
   try {
-    const Case scene = read_case(argv[1]);
+    constexpr double reference_strain = 0.1;
+    Case scene = read_case(argv[1]);
+    scene.output.fields.push_back("PlasticStrain");
     const std::filesystem::path folder = argv[2];
-    const auto material = std::make_shared<DruckerPrager>(std::stod(argv[3]), std::stod(argv[4]));
     Simulation simulation(scene);
-    for (const SoilCase& soil : scene.soils) simulation.set_material(soil.name, material);
+    for (const SoilCase& soil : scene.soils)
+      simulation.set_law(soil.name, std::make_shared<SofteningClay>(
+                                        Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio),
+                                        std::stod(argv[3]), std::stod(argv[4]), reference_strain));
 
     SeriesWriter series(folder, {.scene = script_scene(scene)});
     write_file(folder / "case.toml", write_case(scene));
@@ -32,11 +36,11 @@ int main(int argc, char** argv) {
     const RunOutcome outcome = run(simulation, {.frame = write});
 
     const Particles& p = simulation.model().particles;
-    const auto yielding =
-        std::ranges::count_if(p.stress, [&](const Stress& s) { return material->yield(s) > -1; });
+    const auto yielded =
+        std::ranges::count_if(p.history.at(0).values, [](double strain) { return strain > 0; });
     double furthest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) furthest = std::max(furthest, p.displacement(i).norm());
-    std::cout << yielding << " of " << p.size() << " particles at yield, largest displacement " << furthest
+    std::cout << yielded << " of " << p.size() << " particles have yielded, largest displacement " << furthest
               << " m at " << simulation.time() << " s " << outcome.message << '\n';
     return outcome.status == RunStatus::unstable ? 3 : 0;
   } catch (const std::exception& error) {

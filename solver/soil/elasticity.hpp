@@ -1,20 +1,16 @@
-// Linear elastic soil with the Jaumann rate, eqs. (26)-(31).
+// Isotropic elasticity of the soil skeleton with the Jaumann rate, eqs. (26)-(31).
 #pragma once
 
 #include "solver/tensor.hpp"
 
 namespace porosph {
 
-/// Isotropic linear elasticity of the soil skeleton; optionally without tension and cohesion: no stress
-/// remains where the mean effective stress would be tensile (the apex of a cohesionless cone).
-struct LinearElastic {
+struct Elasticity {
   double shear_modulus = 0;  ///< G [Pa]
   double bulk_modulus = 0;   ///< K [Pa]
-  bool no_tension = false;
 
-  static LinearElastic from_young(double youngs_modulus, double poissons_ratio, bool no_tension = false) {
-    return {youngs_modulus / (2 * (1 + poissons_ratio)), youngs_modulus / (3 * (1 - 2 * poissons_ratio)),
-            no_tension};
+  static Elasticity from_young(double youngs_modulus, double poissons_ratio) {
+    return {youngs_modulus / (2 * (1 + poissons_ratio)), youngs_modulus / (3 * (1 - 2 * poissons_ratio))};
   }
 
   /// M = K + 4 G / 3, modulus of one-dimensional compression [Pa].
@@ -32,20 +28,19 @@ struct LinearElastic {
   /// Effective stress after a step dt [s] with the velocity gradient dv_i/dx_j at the middle of the step
   /// [1/s]: the old stress turned by the step's rotation (Hughes and Winget 1980: exact for a rigid
   /// rotation), plus eq. (28).
-  Stress update(const Stress& old, const Gradient& velocity_gradient, double dt) const {
+  Stress elastic_step(const Stress& old, const Gradient& velocity_gradient, double dt) const {
     const double spin = 0.5 * (velocity_gradient.yx - velocity_gradient.xy);  // omega_yx of eq. (31)
-    const Stress stress = turned(old, 0.5 * spin * dt) + elastic_rate(velocity_gradient) * dt;
-    // Without cohesion there is no shear strength left either where the mean stress has gone to zero.
-    return stress * (no_tension && stress.mean() > 0 ? 0.0 : 1.0);
+    return turned(old, 0.5 * spin * dt) + elastic_rate(velocity_gradient) * dt;
   }
 
-  /// The stress from which update() leads to `after`, where tension is carried [Pa].
-  Stress before(const Stress& after, const Gradient& velocity_gradient, double dt) const {
-    const double spin = 0.5 * (velocity_gradient.yx - velocity_gradient.xy);
-    return turned(after + elastic_rate(velocity_gradient) * -dt, -0.5 * spin * dt);
+  /// Elastic energy per volume, s : s / 4 G + p^2 / 2 K [J/m3].
+  double stored_energy(const Stress& s) const {
+    const double mean = s.mean();
+    const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
+    const double deviatoric = xx * xx + yy * yy + zz * zz + 2 * s.xy * s.xy;
+    return deviatoric / (4 * shear_modulus) + mean * mean / (2 * bulk_modulus);
   }
 
- private:
   /// Stress turned counter-clockwise by the angle whose half has the tangent t.
   static Stress turned(const Stress& s, double t) {
     const double scale = 1 / (1 + t * t), c = (1 - t * t) * scale, sn = 2 * t * scale;

@@ -2,11 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "solver/particles/field.hpp"
 #include "solver/tensor.hpp"
 
 namespace porosph {
+
+/// What a soil's law remembers of each particle: one number, 0 at the start and where the soil's law is
+/// another.
+struct HistoryField {
+  Field field;
+  std::vector<double> values;
+};
 
 /// Structure of arrays, all of the same length, SI units. Ghosts and virtual particles are not among them.
 struct Particles {
@@ -19,10 +28,23 @@ struct Particles {
   std::vector<double> fill;              ///< part of its cell that is soil: about 1/2 on a free surface
   std::vector<std::int32_t> soil;        ///< index into the model's soils
   std::vector<std::int32_t> id;          ///< number in the arrangement's order
+  std::vector<HistoryField> history;     ///< of the soils' laws
 
   std::size_t size() const { return position.size(); }
   double volume(std::size_t i) const { return mass[i] / density[i]; }  ///< [m2]
   Vec2 displacement(std::size_t i) const { return position[i] - start[i]; }
+
+  /// Calls use(name, values) for every array that changes from step to step: all that must be kept to go on
+  /// from a state. The rest the case gives.
+  template <class Use>
+  void for_each_changing(Use&& use) {
+    use("position", position);
+    use("velocity", velocity);
+    use("stress", stress);
+    use("pore_pressure", pore_pressure);
+    use("density", density);
+    for (HistoryField& h : history) use(h.field.name, h.values);
+  }
 };
 
 }  // namespace porosph

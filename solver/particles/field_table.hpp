@@ -1,0 +1,68 @@
+// The one table of the fields that a run can write: it drives output files, charts and documents.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/particles/field.hpp"
+
+namespace porosph {
+
+namespace particle_fields {
+
+inline constexpr Field displacement{"Displacement",    "m", "u", "displacement", "from the position at t = 0",
+                                    FieldKind::vector, true};
+inline constexpr Field velocity{"Velocity",        "m/s", "v", "velocity", "at the frame's time",
+                                FieldKind::vector, true};
+inline constexpr Field effective_stress{
+    "EffectiveStress",    "Pa", "σ'", "effective stress", "sigma', tension positive",
+    FieldKind::symmetric, true};
+inline constexpr Field total_stress{
+    "TotalStress", "Pa", "σ", "total stress", "sigma = sigma' + p_w I (eq. 12)", FieldKind::symmetric, true};
+inline constexpr Field pore_pressure{
+    "PorePressure", "Pa", "p_w", "pore pressure", "p_w, negative in compression", FieldKind::scalar, true};
+inline constexpr Field density{
+    "Density", "kg/m3", "ρ", "density", "mass of soil and pore water per volume", FieldKind::scalar, true};
+inline constexpr Field mass{"Mass", "kg/m", "m", "mass", "per metre of thickness", FieldKind::scalar, true};
+inline constexpr Field smoothing_length{"SmoothingLength", "m", "h", "smoothing length", "h of the kernel",
+                                        FieldKind::scalar, true};
+inline constexpr Field soil_id{"SoilId",           "-", "", "soil", "number of the soil in the case, from 0",
+                               FieldKind::integer, true};
+inline constexpr Field particle_id{
+    "ParticleId",       "-", "", "particle", "number of the particle, from 0, the same in all frames",
+    FieldKind::integer, true};
+inline constexpr Field principal_stress{
+    "PrincipalStress",   "Pa", "σ'", "principal effective stress", "of sigma', the most tensile first",
+    FieldKind::principal};
+inline constexpr Field mean_stress{"MeanStress", "Pa", "tr σ' / 3", "mean effective stress",
+                                   "tr(sigma') / 3"};
+inline constexpr Field deviatoric_stress{
+    "DeviatoricStress",  "Pa", "s", "deviatoric stress", "s = sigma' - tr(sigma') / 3 I, that of sigma too",
+    FieldKind::symmetric};
+inline constexpr Field von_mises_stress{"VonMisesStress", "Pa", "q", "von Mises stress", "sqrt(3/2 s : s)"};
+inline constexpr Field strain{"Strain",
+                              "-",
+                              "ε",
+                              "strain",
+                              "Green-Lagrange strain since t = 0 (tensor shear, half of gamma)",
+                              FieldKind::symmetric};
+inline constexpr Field excess_stress{"ExcessStress",
+                                     "Pa",
+                                     "Δσ'",
+                                     "effective stress in excess of theory",
+                                     "sigma' less that of the case's exact solution at rest",
+                                     FieldKind::symmetric};
+
+}  // namespace particle_fields
+
+/// All fields, in the order of the documents: those above, then what the soils' laws remember.
+const std::vector<Field>& field_table();
+
+/// Names of those that are written where the case does not choose fields, or of those that must be chosen.
+std::vector<std::string> standard_field_names();
+std::vector<std::string> optional_field_names();
+
+/// The field of this name, or null.
+const Field* find_field(std::string_view name);
+
+}  // namespace porosph

@@ -1,0 +1,42 @@
+// What a soil's law has to offer. One law is one file; solver/soil/laws.hpp lists them.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <type_traits>
+
+#include "solver/particles/field.hpp"
+#include "solver/tensor.hpp"
+
+namespace porosph {
+
+/// A law is a plain struct of parameters. Its step runs inside the loops over particles, once for each kind
+/// of vector units, so it may only compute with plain numbers: no call out of line, no branch that selection
+/// cannot replace, no loop that ends early.
+///
+/// What it remembers of a particle, History, is a struct of doubles that are 0 at the start. The array
+/// `history` describes them in their order, and with that they are in checkpoints and output files.
+template <class Law>
+concept SoilLaw = std::is_trivially_copyable_v<Law> &&
+    requires(const Law& law, const Stress& stress, const Gradient& gradient, double dt,
+             typename Law::History& q) {
+  /// Effective stress after a step dt [s] from `stress` with the velocity gradient at its middle [1/s, Pa].
+  { law.step(stress, gradient, dt, q) } -> std::same_as<Stress>;
+  /// Modulus M of one-dimensional compression at this state: wave speed and time step [Pa].
+  { law.constrained_modulus(stress, q) } -> std::same_as<double>;
+  /// Elastic energy per volume [J/m3].
+  { law.stored_energy(stress) } -> std::same_as<double>;
+  /// Elastic shear modulus G and bulk modulus K, the largest that the law may have [Pa].
+  { law.shear_modulus } -> std::convertible_to<double>;
+  { law.bulk_modulus } -> std::convertible_to<double>;
+  { Law::history.size() } -> std::convertible_to<std::size_t>;
+};
+
+/// Of a law that remembers nothing.
+struct NoHistory {};
+
+/// How many numbers a law remembers.
+template <class Law>
+constexpr std::size_t history_size = Law::history.size();
+
+}  // namespace porosph
