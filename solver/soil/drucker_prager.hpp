@@ -47,12 +47,17 @@ struct DruckerPrager : Elasticity {
   }
 
   /// sqrt(J2) + alpha I1 - k: positive outside the yield surface [Pa].
-  double yield(const Stress& s) const { return root_j2(s) + 3 * alpha * s.mean() - k; }
+  template <class Space>
+  double yield(const Symmetric<Space>& s) const {
+    return root_j2(s) + 3 * alpha * s.mean() - k;
+  }
 
   /// The elastic step's stress, returned to the yield surface where it has left it: radially in the deviator
   /// and by the dilation in the mean, then to the apex where that is passed.
-  Stress step(const Stress& old, const Gradient& velocity_gradient, double dt, History& q) const {
-    const Stress trial = elastic_step(old, velocity_gradient, dt);
+  template <class Space>
+  Symmetric<Space> step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient, double dt,
+                        History& q) const {
+    const Symmetric<Space> trial = elastic_step(old, velocity_gradient, dt);
     const double mean = trial.mean(), root = root_j2(trial);
     const double excess = root + 3 * alpha * mean - k;
     const double compliance = 1 / (shear_modulus + 9 * bulk_modulus * alpha * beta);
@@ -65,18 +70,18 @@ struct DruckerPrager : Elasticity {
     const double scale = root > 0 ? new_root / root : 1;
     const double strain_per_stress = 1 / (shear_modulus * std::numbers::sqrt3);
     q.plastic_strain += (root - new_root) * strain_per_stress;
-    const double shift = new_mean - scale * mean;
-    return {scale * trial.xx + shift, scale * trial.yy + shift, scale * trial.zz + shift, scale * trial.xy};
+    return (trial * scale).plus_isotropic(new_mean - scale * mean);
   }
-  double constrained_modulus(const Stress&, const History&) const {
+  template <class Space>
+  double constrained_modulus(const Symmetric<Space>&, const History&) const {
     return Elasticity::constrained_modulus();
   }
   using Elasticity::constrained_modulus;
 
  private:
-  static double root_j2(const Stress& s) {
-    const double m = s.mean(), xx = s.xx - m, yy = s.yy - m, zz = s.zz - m;
-    return std::sqrt(0.5 * (xx * xx + yy * yy + zz * zz) + s.xy * s.xy);
+  template <class Space>
+  static double root_j2(const Symmetric<Space>& s) {
+    return std::sqrt(0.5 * s.plus_isotropic(-s.mean()).squared());
   }
 };
 static_assert(SoilLaw<DruckerPrager>);

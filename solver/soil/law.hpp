@@ -16,12 +16,12 @@ namespace porosph {
 ///
 /// What it remembers of a particle, History, is a struct of doubles that are 0 at the start. The array
 /// `history` describes them in their order, and with that they are in checkpoints and output files.
-template <class Law>
+template <class Law, class Space = Plane>
 concept SoilLaw = std::is_trivially_copyable_v<Law> &&
-    requires(const Law& law, const Stress& stress, const Gradient& gradient, double dt,
+    requires(const Law& law, const Symmetric<Space>& stress, const GradientIn<Space>& gradient, double dt,
              typename Law::History& q) {
   /// Effective stress after a step dt [s] from `stress` with the velocity gradient at its middle [1/s, Pa].
-  { law.step(stress, gradient, dt, q) } -> std::same_as<Stress>;
+  { law.step(stress, gradient, dt, q) } -> std::same_as<Symmetric<Space>>;
   /// Modulus M of one-dimensional compression at this state: wave speed and time step [Pa].
   { law.constrained_modulus(stress, q) } -> std::same_as<double>;
   /// Elastic energy per volume [J/m3].

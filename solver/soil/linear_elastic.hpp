@@ -18,12 +18,15 @@ struct LinearElastic : Elasticity {
     return {Elasticity::from_young(youngs_modulus, poissons_ratio), no_tension};
   }
 
-  Stress step(const Stress& old, const Gradient& velocity_gradient, double dt, History&) const {
-    const Stress stress = elastic_step(old, velocity_gradient, dt);
+  template <class Space>
+  Symmetric<Space> step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient, double dt,
+                        History&) const {
+    const Symmetric<Space> stress = elastic_step(old, velocity_gradient, dt);
     // Without cohesion there is no shear strength left either where the mean stress has gone to zero.
     return stress * (no_tension && stress.mean() > 0 ? 0.0 : 1.0);
   }
-  double constrained_modulus(const Stress&, const History&) const {
+  template <class Space>
+  double constrained_modulus(const Symmetric<Space>&, const History&) const {
     return Elasticity::constrained_modulus();
   }
   using Elasticity::constrained_modulus;
