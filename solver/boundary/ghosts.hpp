@@ -49,6 +49,15 @@ class Ghosts {
     return motion_[images_[i].wall] * flux * reflection(i);
   }
 
+  /// The same from the particle that ghost i stems from, through all walls between them.
+  template <Mirrors how, class Value>
+  Value from_root(std::size_t i, const Value& value) const {
+    return mirrored<how>(i, stems_from_ghost(i) ? from_root<how>(parent(i) - particles_, value) : value);
+  }
+  Mat2 flux_from_root(std::size_t i, const Mat2& flux) const {
+    return mirrored_flux(i, stems_from_ghost(i) ? flux_from_root(parent(i) - particles_, flux) : flux);
+  }
+
   /// Calls use(i) for every ghost from `first` on: those of particles, on all threads, then those of ghosts,
   /// which need their parents.
   template <class Use>

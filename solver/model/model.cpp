@@ -65,6 +65,7 @@ Model build_model(const Case& scene) {
     model.soils.emplace_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
 
   model.particles = make_particles(scene, model.water, place_particles(scene));
+  if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
   model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);

@@ -15,15 +15,6 @@ double controlled_rho_c(const Model& model) {
   return *std::min_element(density.begin(), density.end()) * model.wave_speed;
 }
 
-/// The zero-energy control's elastic part [1/s]. Closed gradients leave non-linear motion softer springs than
-/// a lattice's, and the imbalance of single particles works on it.
-double control_rate(const FormulationCase& formulation, const Model& model, bool closed) {
-  constexpr double in_disorder = 0.1;  // by the map cases/stability/disorder.toml
-  double stiffness = formulation.zero_energy_stiffness;
-  if (stiffness < 0) stiffness = closed ? in_disorder : 0;
-  return stiffness * model.wave_speed / model.smoothing_length;
-}
-
 }  // namespace
 
 ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
@@ -32,10 +23,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
       soils_(model),
-      control_{
-          .viscosity = formulation.zero_energy_control * controlled_rho_c(model) * model.smoothing_length,
-          .rate = 0,
-          .bulk_length = formulation.bulk_viscosity * model.smoothing_length} {}
+      control_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) * model.smoothing_length) {
+}
 
 void ConsistentDynamics::prepare() {
   const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
@@ -54,8 +43,10 @@ void ConsistentDynamics::rebuild_reference() {
   reference_ = make_reference(model_, formulation_);
   counts.searches += 1;
   counts.closures += reference_.closed() ? 1 : 0;
-  control_.rate = control_rate(formulation_, model_, reference_.closed());
-  fluxes_ = Fluxes(reference_, model_, control_.rate != 0);
+  own_sides_ = find_own_sides(reference_, model_);
+  soils_.set_own_sides(own_sides_.place);
+  spring_ = ZeroEnergySpring(formulation_, model_, reference_, own_sides_);
+  fluxes_ = Fluxes(reference_, model_, spring_.active());
   connect_arrays();
 }
 
@@ -64,7 +55,12 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.reference = reference_.view(p);
   arrays_.state.stress = &p.stress.data()->xx;
   arrays_.state.density = p.density.data();
-  arrays_.control = control_;
+  arrays_.state.interface_stress = p.interface_stress.data();
+  own_sides_.connect(arrays_.state.own_sides);
+  arrays_.state.own_sides.rate = spring_.of_own_sides().data();
+  arrays_.control = {.viscosity = control_viscosity_,
+                     .rate = spring_.of_soils().data(),
+                     .bulk_length = formulation_.bulk_viscosity * model_.smoothing_length};
   arrays_.gravity[0] = model_.gravity.x(), arrays_.gravity[1] = model_.gravity.y();
   fluxes_.connect(arrays_, reference_);
 }
@@ -99,10 +95,19 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  fluxes_.prepare_forces(reference_, model_, control_.rate);
+  fluxes_.prepare_forces(reference_, model_, spring_);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
+  spring_.soften_pairs(
+      reference_, model_.particles, control_viscosity_, [&](std::int32_t a) { return own_strain(a); }, out);
+}
+
+/// F - I of a particle's own side.
+Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
+  const Mat2 strain = fluxes_.deformation(a) - Mat2::Identity();
+  const std::int32_t place = own_sides_.empty() ? -1 : own_sides_.place[a];
+  return place < 0 ? strain : own_sides_.of(place, strain);
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
@@ -112,8 +117,11 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
     std::array<PlaneTensor, PairStencils::tile> rate;
     kernels_.rates(arrays_, tile, rate.data()->data());
     const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
-    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
       out[a] = matrix(rate[a - first]) * inverse(fluxes_.deformation(a));
+      if (!own_sides_.empty() && own_sides_.place[a] >= 0)
+        out[a] = own_sides_.rate_of(own_sides_.place[a], out[a]);
+    }
   }
 }
 

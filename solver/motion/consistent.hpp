@@ -37,14 +37,17 @@ class ConsistentDynamics final : public Dynamics {
   void connect_arrays();
   bool strangers_are_near();
   LargestChange strain_all(double dt);
+  Mat2 own_strain(std::size_t particle) const;
 
   Model& model_;
   FormulationCase formulation_;
   CubicSpline<2> kernel_;
   const ConsistentKernels& kernels_;
   SoilViews soils_;
-  StabilisationView control_{};
+  double control_viscosity_;  ///< mu of the zero-energy control [Pa s]
   ReferenceConfiguration reference_;
+  OwnSides own_sides_;
+  ZeroEnergySpring spring_;
   Fluxes fluxes_;              ///< since the reference
   ConsistentArrays arrays_{};  ///< all these, as the kernels see them
   double largest_strain_ = 0;  ///< |F - I| since the reference

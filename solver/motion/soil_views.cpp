@@ -11,6 +11,18 @@ const void* address(const std::shared_ptr<const ExternalLaw>& law) { return law.
 
 }  // namespace
 
+void SoilViews::set_own_sides(std::span<const std::int32_t> place) {
+  const std::vector<std::int32_t>& soil = model_.particles.soil;
+  ranges_.clear();
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(soil.size()); ++i) {
+    const std::int32_t side = place.empty() ? -1 : place[i];
+    const bool continues =
+        !ranges_.empty() && ranges_.back().soil == soil[i] && (ranges_.back().own_side < 0) == (side < 0);
+    if (!continues) ranges_.push_back({i, i, soil[i], side});
+    ranges_.back().last = i + 1;
+  }
+}
+
 SoilView SoilViews::view() {
   history_.clear();
   laws_.clear();

@@ -1,6 +1,7 @@
 // The soils of a model as the hot loops see them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/model/model.hpp"
@@ -11,11 +12,13 @@ namespace porosph {
 /// Refers to the model, whose particles keep their soils.
 class SoilViews {
  public:
-  explicit SoilViews(Model& model) : model_(model), ranges_(soil_ranges(model.particles.soil)) {}
+  explicit SoilViews(Model& model) : model_(model) { set_own_sides({}); }
+
+  /// `place` of each particle as in OwnSides; empty where all soils are alike.
+  void set_own_sides(std::span<const std::int32_t> place);
 
   /// Of the model's present laws and their history.
   SoilView view();
-  const std::vector<SoilRange>& ranges() const { return ranges_; }
 
  private:
   Model& model_;

@@ -29,6 +29,9 @@ struct Particles {
   std::vector<std::int32_t> soil;        ///< index into the model's soils
   std::vector<std::int32_t> id;          ///< number in the arrangement's order
   std::vector<HistoryField> history;     ///< of the soils' laws
+  /// Stress along the interface where soils of different stiffness meet, beyond the soil's own [Pa]; empty in
+  /// one soil.
+  std::vector<double> interface_stress;
 
   std::size_t size() const { return position.size(); }
   double volume(std::size_t i) const { return mass[i] / density[i]; }  ///< [m2]
@@ -43,6 +46,7 @@ struct Particles {
     use("stress", stress);
     use("pore_pressure", pore_pressure);
     use("density", density);
+    if (!interface_stress.empty()) use("interface_stress", interface_stress);
     for (HistoryField& h : history) use(h.field.name, h.values);
   }
 };

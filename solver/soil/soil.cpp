@@ -31,13 +31,4 @@ void Soil::add_history(Particles& particles) {
   }
 }
 
-std::vector<SoilRange> soil_ranges(const std::vector<std::int32_t>& soil) {
-  std::vector<SoilRange> ranges;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(soil.size()); ++i) {
-    if (ranges.empty() || ranges.back().soil != soil[i]) ranges.push_back({i, i, soil[i]});
-    ranges.back().last = i + 1;
-  }
-  return ranges;
-}
-
 }  // namespace porosph

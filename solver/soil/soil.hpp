@@ -31,13 +31,5 @@ class Soil {
   std::vector<std::size_t> history_;
 };
 
-/// Consecutive particles of one soil.
-struct SoilRange {
-  std::int32_t first, last;  ///< particles first to last - 1
-  std::int32_t soil;
-};
-
-/// All particles, in order.
-std::vector<SoilRange> soil_ranges(const std::vector<std::int32_t>& soil);
 
 }  // namespace porosph

@@ -43,13 +43,15 @@ void Fluxes::take_velocities(const ReferenceConfiguration& r, const Particles& p
   spread(r, velocity_, [&](std::size_t a) { return p.velocity[a]; });
 }
 
-void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model, double control_rate) {
+void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
+                            const ZeroEnergySpring& spring) {
   take_pressures(r, model);
   // Takes the velocities' place in the records until the next step, when all have been strained.
   const Particles& p = model.particles;
   if (!controlled_[0].empty())
-    spread(r, controlled_,
-           [&](std::size_t a) { return Vec2(p.velocity[a] + control_rate * (p.position[a] - r.points[a])); });
+    spread(r, controlled_, [&](std::size_t a) {
+      return Vec2(p.velocity[a] + spring.of(a, p) * (p.position[a] - r.points[a]));
+    });
   behind_walls_.fill(r, piola_);
   fill_ghost_fluxes(r, p.fill);
 }

@@ -7,6 +7,7 @@
 
 #include "solver/motion/consistent/reference.hpp"
 #include "solver/motion/consistent/stress_behind_walls.hpp"
+#include "solver/motion/consistent/zero_energy_spring.hpp"
 #include "solver/motion/kernels/record.hpp"
 #include "solver/state.hpp"
 
@@ -21,9 +22,10 @@ class Fluxes {
 
   /// The particles' velocities, and the ghosts'.
   void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
-  /// What the next forces need beside the flux of the particles: pore pressure, v + rate * displacement for
-  /// the zero-energy control, and the ghosts' P and flux.
-  void prepare_forces(const ReferenceConfiguration& reference, const Model& model, double control_rate);
+  /// What the next forces need beside the flux of the particles: pore pressure, v + k * displacement for the
+  /// zero-energy control, and the ghosts' P and flux.
+  void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
+                      const ZeroEnergySpring& spring);
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 

@@ -170,7 +170,6 @@ struct TileStep {
         stress(c.state.stress + 4 * tile.first),
         density(c.state.density + tile.first),
         mu(c.control.viscosity),
-        elastic(c.control.rate),
         bulk_length(c.control.bulk_length),
         dt(step),
         half(0.5 * step) {
@@ -196,43 +195,56 @@ struct TileStep {
     stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
   }
 
-  /// F and density after the step, P and the flux fill P L - mu (dF/dt + k (F - I)) of the stress `s`.
-  void deform(std::int32_t i, const Stress& s, double modulus, double dilatation, double& strain,
-              double& speed_squared) const {
-    const double rxx = rate[xx][i], rxy = rate[xy][i], ryx = rate[yx][i], ryy = rate[yy][i];
-    const double fxx = deformation[xx][i] + dt * rxx, fxy = deformation[xy][i] + dt * rxy;
-    const double fyx = deformation[yx][i] + dt * ryx, fyy = deformation[yy][i] + dt * ryy;
+  /// F and density after the step.
+  struct Deformed {
+    double xx, xy, yx, yy, density;
+  };
+  Deformed deform(std::int32_t i, double& strain, double& speed_squared) const {
+    const double fxx = deformation[xx][i] + dt * rate[xx][i], fxy = deformation[xy][i] + dt * rate[xy][i];
+    const double fyx = deformation[yx][i] + dt * rate[yx][i], fyy = deformation[yy][i] + dt * rate[yy][i];
     deformation[xx][i] = fxx, deformation[xy][i] = fxy, deformation[yx][i] = fyx, deformation[yy][i] = fyy;
-    density[i] = reference_density[i] / (fxx * fyy - fxy * fyx);
-
-    const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * density[i]), dilatation);
-    const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
-    const double pxx = txx * fyy - s.xy * fxy, pxy = s.xy * fxx - txx * fyx;
-    const double pyx = s.xy * fyy - tyy * fxy, pyy = tyy * fxx - s.xy * fyx;
-    piola[xx][i] = pxx, piola[xy][i] = pxy, piola[yx][i] = pyx, piola[yy][i] = pyy;
-    const double sxx = fill[i] * correction[xx][i], sxy = fill[i] * correction[xy][i],
-                 syx = fill[i] * correction[yx][i], syy = fill[i] * correction[yy][i];
-    flux[xx][i] = pxx * sxx + pxy * syx - mu * (rxx + elastic * (fxx - 1));
-    flux[xy][i] = pxx * sxy + pxy * syy - mu * (rxy + elastic * fxy);
-    flux[yx][i] = pyx * sxx + pyy * syx - mu * (ryx + elastic * fyx);
-    flux[yy][i] = pyx * sxy + pyy * syy - mu * (ryy + elastic * (fyy - 1));
+    const double rho = reference_density[i] / (fxx * fyy - fxy * fyx);
+    density[i] = rho;
     strain = larger(
         strain, larger(larger(std::abs(fxx - 1), std::abs(fyy - 1)), larger(std::abs(fxy), std::abs(fyx))));
     speed_squared = larger(speed_squared, vx[i] * vx[i] + vy[i] * vy[i]);
+    return {fxx, fxy, fyx, fyy, rho};
+  }
+
+  /// dF/dt + k (F - I), which the zero-energy control acts on.
+  Gradient controlled(std::int32_t i, const Deformed& f, double k) const {
+    return {rate[xx][i] + k * (f.xx - 1), rate[xy][i] + k * f.xy, rate[yx][i] + k * f.yx,
+            rate[yy][i] + k * (f.yy - 1)};
+  }
+
+  /// P, and the flux fill P L less the zero-energy control, of the stress `s`.
+  void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus, double dilatation,
+                  const Gradient& control) const {
+    const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * f.density), dilatation);
+    const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
+    const double pxx = txx * f.yy - s.xy * f.xy, pxy = s.xy * f.xx - txx * f.yx;
+    const double pyx = s.xy * f.yy - tyy * f.xy, pyy = tyy * f.xx - s.xy * f.yx;
+    piola[xx][i] = pxx, piola[xy][i] = pxy, piola[yx][i] = pyx, piola[yy][i] = pyy;
+    const double sxx = fill[i] * correction[xx][i], sxy = fill[i] * correction[xy][i],
+                 syx = fill[i] * correction[yx][i], syy = fill[i] * correction[yy][i];
+    flux[xx][i] = pxx * sxx + pxy * syx - mu * control.xx;
+    flux[xy][i] = pxx * sxy + pxy * syy - mu * control.xy;
+    flux[yx][i] = pyx * sxx + pyy * syx - mu * control.yx;
+    flux[yy][i] = pyx * sxy + pyy * syy - mu * control.yy;
   }
 
   std::int32_t particle;  ///< the tile's first
   const double *vx, *vy, *reference_density, *fill;
   double *stress, *density;
-  double mu, elastic, bulk_length, dt, half;
+  double mu, bulk_length, dt, half;
   const double *rate[4], *correction[4];
   double *piola[4], *deformation[4], *flux[4];
 };
 
-/// Particles first to last - 1 of the tile, which have this law.
+/// Particles first to last - 1 of the tile, which have this law. `elastic`: k of the control in this soil.
 template <SoilLaw Law>
-LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last,
-                            const LawView& view) {
+LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last, const LawView& view,
+                            double elastic) {
   const TileStep t = tile;  // of this function's own: nothing that is written can be part of it
   const Law law = *static_cast<const Law*>(view.law);
   double* history[history_size<Law> + 1];
@@ -245,22 +257,90 @@ LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32
     const Stress s = law.step(t.old_stress(i), gradient, t.dt, q);
     store_history<Law>(history, i, q);
     t.store_stress(i, s);
-    t.deform(i, s, law.constrained_modulus(s, q), gradient.trace(), strain, speed_squared);
+    const TileStep::Deformed f = t.deform(i, strain, speed_squared);
+    t.write_flux(i, s, f, law.constrained_modulus(s, q), gradient.trace(), t.controlled(i, f, elastic));
   }
   return {strain, speed_squared};
 }
 
-/// The same of a law that is called for all of them at once.
-LargestChange external_step(const TileStep& tile, std::int32_t first, std::int32_t last,
-                            const LawView& view) {
+/// What a step at an interface does with the gradient of a particle's own side.
+struct OwnSideStep {
+  OwnSideStep(const ConsistentArrays& c, std::int32_t first_particle, std::int32_t place)
+      : interface_stress(c.state.interface_stress + first_particle),
+        along_x(c.state.own_sides.along[0] + place),
+        along_y(c.state.own_sides.along[1] + place),
+        elastic(c.state.own_sides.rate + place) {
+    for (int k = 0; k < 16; ++k) a[k] = c.state.own_sides.gradient[k] + place;
+    for (int k = 0; k < 4; ++k) tie[k] = c.state.own_sides.tie[k] + place;
+  }
+
+  /// A : m for the particle j of this stretch.
+  Gradient own(std::int32_t j, double mxx, double mxy, double myx, double myy) const {
+    return {a[0][j] * mxx + a[1][j] * mxy + a[2][j] * myx + a[3][j] * myy,
+            a[4][j] * mxx + a[5][j] * mxy + a[6][j] * myx + a[7][j] * myy,
+            a[8][j] * mxx + a[9][j] * mxy + a[10][j] * myx + a[11][j] * myy,
+            a[12][j] * mxx + a[13][j] * mxy + a[14][j] * myx + a[15][j] * myy};
+  }
+  /// The own side's strain rate with the rotation of the sum.
+  Gradient gradient(std::int32_t j, const Gradient& summed) const {
+    const Gradient g = own(j, summed.xx, summed.xy, summed.yx, summed.yy);
+    const double shear = 0.5 * (g.xy + g.yx), spin = 0.5 * (summed.yx - summed.xy);
+    return {g.xx, shear - spin, shear + spin, g.yy};
+  }
+  /// Carries tau over the step and adds tau t (x) t to the stress.
+  Stress tied(std::int32_t j, const Stress& s, const Gradient& g, double dt) const {
+    const double tau = interface_stress[j] +
+                       dt * (tie[0][j] * g.xx + tie[1][j] * g.xy + tie[2][j] * g.yx + tie[3][j] * g.yy);
+    interface_stress[j] = tau;
+    const double x = along_x[j], y = along_y[j];
+    return {s.xx + tau * x * x, s.yy + tau * y * y, s.zz, s.xy + tau * x * y};
+  }
+  /// What the zero-energy control acts on at particle i of the tile.
+  Gradient controlled(const TileStep& t, std::int32_t i, std::int32_t j, const TileStep::Deformed& f) const {
+    const Gradient c = t.controlled(i, f, elastic[j]);
+    return own(j, c.xx, c.xy, c.yx, c.yy);
+  }
+
+  double* interface_stress;
+  const double *along_x, *along_y, *elastic;
+  const double *a[16], *tie[4];
+};
+
+/// As material_step where another soil is near. `place` of the first particle in the own sides.
+template <SoilLaw Law>
+LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, std::int32_t first,
+                             std::int32_t last, const LawView& view, std::int32_t place) {
   const TileStep t = tile;
-  Row gradient[4], dilatation;
-#pragma omp simd
+  const OwnSideStep side(c, t.particle + first, place);
+  const Law law = *static_cast<const Law*>(view.law);
+  double* history[history_size<Law> + 1];
+  for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
+  double strain = 0, speed_squared = 0;
+#pragma omp simd reduction(max : strain, speed_squared)
+  for (std::int32_t j = 0; j < last - first; ++j) {
+    const std::int32_t i = first + j;
+    const Gradient gradient = side.gradient(j, t.gradient(i));
+    typename Law::History q = load_history<Law>(history, i);
+    const Stress s = law.step(t.old_stress(i), gradient, t.dt, q);
+    store_history<Law>(history, i, q);
+    t.store_stress(i, s);
+    const TileStep::Deformed f = t.deform(i, strain, speed_squared);
+    t.write_flux(i, side.tied(j, s, gradient, t.dt), f, law.constrained_modulus(s, q), gradient.trace(),
+                 side.controlled(t, i, j, f));
+  }
+  return {strain, speed_squared};
+}
+
+/// Either of them for a law that is called for all particles at once; `place` < 0: no other soil is near.
+LargestChange external_step(const ConsistentArrays& c, const TileStep& tile, std::int32_t first,
+                            std::int32_t last, const LawView& view, double elastic, std::int32_t place) {
+  const TileStep t = tile;
+  const OwnSideStep side(c, place < 0 ? 0 : t.particle + first, place < 0 ? 0 : place);
+  Row gradient[4];
   for (std::int32_t i = first; i < last; ++i) {
-    const Gradient g = t.gradient(i);
+    const Gradient summed = t.gradient(i), g = place < 0 ? summed : side.gradient(i - first, summed);
     gradient[xx].value[i] = g.xx, gradient[xy].value[i] = g.xy;
     gradient[yx].value[i] = g.yx, gradient[yy].value[i] = g.yy;
-    dilatation.value[i] = g.trace();
   }
   const auto& law = *static_cast<const ExternalLaw*>(view.law);
   double* history[LawView::most_history];
@@ -274,9 +354,17 @@ LargestChange external_step(const TileStep& tile, std::int32_t first, std::int32
   law.step(soil);
   const double modulus = law.elastic().constrained_modulus();
   double strain = 0, speed_squared = 0;
-#pragma omp simd reduction(max : strain, speed_squared)
-  for (std::int32_t i = first; i < last; ++i)
-    t.deform(i, t.old_stress(i), modulus, dilatation.value[i], strain, speed_squared);
+  for (std::int32_t i = first; i < last; ++i) {
+    const Gradient g(gradient[xx].value[i], gradient[xy].value[i], gradient[yx].value[i],
+                     gradient[yy].value[i]);
+    const TileStep::Deformed f = t.deform(i, strain, speed_squared);
+    const std::int32_t j = i - first;
+    if (place < 0)
+      t.write_flux(i, t.old_stress(i), f, modulus, g.trace(), t.controlled(i, f, elastic));
+    else
+      t.write_flux(i, side.tied(j, t.old_stress(i), g, t.dt), f, modulus, g.trace(),
+                   side.controlled(t, i, j, f));
+  }
   return {strain, speed_squared};
 }
 
@@ -286,14 +374,17 @@ void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestCh
   tile_rates(c, tile, rate);
   const TileStep step(c, tile, rate, piola, dt);
   for_each_soil(c.state.soils, tile.first, tile.last,
-                [&](std::int32_t from, std::int32_t to, const LawView& law) {
+                [&](std::int32_t from, std::int32_t to, const LawView& law, std::int32_t place) {
                   const std::int32_t first = from - tile.first, last = to - tile.first;
+                  const double elastic = c.control.rate[&law - c.state.soils.laws];
                   LargestChange change;
                   if (law.kind == Laws::size)
-                    change = external_step(step, first, last, law);
+                    change = external_step(c, step, first, last, law, elastic, place);
                   else
-                    with_law(Laws{}, law.kind,
-                             [&]<class Law>() { change = material_step<Law>(step, first, last, law); });
+                    with_law(Laws{}, law.kind, [&]<class Law>() {
+                      change = place < 0 ? material_step<Law>(step, first, last, law, elastic)
+                                         : interface_step<Law>(c, step, first, last, law, place);
+                    });
                   largest.strain = std::max(largest.strain, change.strain);
                   largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);
                 });

@@ -32,12 +32,22 @@ struct MotionView {
   const double* pressure;  ///< p_w, and ghost [Pa]; null in dry soil
 };
 
+/// Where soils meet: see OwnSides, one entry per particle there.
+struct OwnSideView {
+  const double* gradient[16];  ///< A
+  const double* tie[4];        ///< [Pa]
+  const double* along[2];      ///< t
+  const double* rate;          ///< k of the zero-energy control [1/s]
+};
+
 /// The soil's state since the reference.
 struct SoilStateView {
   SoilView soils;
   double* deformation[4];  ///< F
   double* stress;          ///< effective, four numbers each: xx, yy, zz, xy [Pa]
   double* density;         ///< [kg/m3]
+  OwnSideView own_sides;
+  double* interface_stress;  ///< tau [Pa]
 };
 
 /// What a step leaves for the next forces.
@@ -52,7 +62,7 @@ struct FluxView {
 /// Zero-energy control and bulk viscosity.
 struct StabilisationView {
   double viscosity;    ///< mu of the zero-energy control [Pa s]
-  double rate;         ///< k, of its elastic part [1/s]
+  const double* rate;  ///< k, of its elastic part in each soil, away from others [1/s]
   double bulk_length;  ///< bulk viscosity's strength times h [m]
 };
 

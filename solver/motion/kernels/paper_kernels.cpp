@@ -240,12 +240,14 @@ void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const
 void strain(const Arrays& c, std::int32_t number, double dt) {
   rates(c, number);
   const PairRuns::Run run = c.runs->runs[number];
-  for_each_soil(c.soils, run.first, run.last, [&](std::int32_t first, std::int32_t last, const LawView& law) {
-    if (law.kind == Laws::size)
-      external_step(c, first, last, law, dt);
-    else
-      with_law(Laws{}, law.kind, [&]<class Law>() { material_step<Law>(c, first, last, law, dt); });
-  });
+  for_each_soil(c.soils, run.first, run.last,
+                [&](std::int32_t first, std::int32_t last, const LawView& law, std::int32_t) {
+                  if (law.kind == Laws::size)
+                    external_step(c, first, last, law, dt);
+                  else
+                    with_law(Laws{}, law.kind,
+                             [&]<class Law>() { material_step<Law>(c, first, last, law, dt); });
+                });
 }
 
 }  // namespace

@@ -24,12 +24,13 @@ inline const SoilRange* range_at(const SoilView& soils, std::int32_t particle) {
   return soils.ranges + low;
 }
 
-/// Calls use(from, to, law) for the particles first to last - 1, soil by soil.
+/// Calls use(from, to, law, own_side) for the particles first to last - 1, soil by soil.
 template <class Use>
 inline void for_each_soil(const SoilView& soils, std::int32_t first, std::int32_t last, Use&& use) {
   for (const SoilRange* range = range_at(soils, first); first < last; ++range) {
     const std::int32_t end = range->last < last ? range->last : last;
-    use(first, end, soils.laws[range->soil]);
+    use(first, end, soils.laws[range->soil],
+        range->own_side < 0 ? -1 : range->own_side + first - range->first);
     first = end;
   }
 }

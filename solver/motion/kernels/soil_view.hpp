@@ -18,6 +18,13 @@ struct LawView {
   std::size_t history_count;
 };
 
+/// Consecutive particles of one soil.
+struct SoilRange {
+  std::int32_t first, last;  ///< particles first to last - 1
+  std::int32_t soil;
+  std::int32_t own_side;  ///< where those of the first begin in OwnSideView, or -1: no other soil is near
+};
+
 /// Soils of all particles, in order.
 struct SoilView {
   const SoilRange* ranges;
