@@ -47,8 +47,8 @@ std::string probe_table(const Case& scene, const FemSolution& solution) {
 }
 
 void tell(const Case& scene, const FemSolution& solution) {
-  fmt::print("{} triangles, {} unknowns, {:.2f} s\n", solution.mesh().triangles.size(), solution.unknowns,
-             solution.seconds);
+  fmt::print("{} triangles, {} unknowns, {:.2f} s, rounding {:.0e}\n", solution.mesh().triangles.size(),
+             solution.unknowns, solution.seconds, solution.rounding);
   for (const ProbeCase& probe : scene.probes) {
     const FemPoint p = solution.at(probe.position);
     fmt::print("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", probe.name, probe.position.x(),

@@ -39,8 +39,9 @@ class FemSolution {
   const P4Mesh& p4_mesh() const { return nodes_; }
   const Eigen::Matrix2Xd& displacement() const { return displacement_; }  ///< one column per node [m]
 
-  double seconds = 0;  ///< wall time from mesh to displacements [s]
-  int unknowns = 0;    ///< of the linear system
+  double seconds = 0;   ///< wall time from mesh to displacements [s]
+  int unknowns = 0;     ///< of the linear system
+  double rounding = 0;  ///< what rounding has spoilt, relative, in the norm of energy [-]
 
  private:
   std::vector<SoilCase> soils_;
