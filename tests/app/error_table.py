@@ -93,6 +93,8 @@ ON_THE_COMMAND_LINE = [
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
     ("finite elements into that folder", "fem case.toml --out other", {}),
+    ("finite elements that no memory holds", "fem case.toml --out fine --edge 1e-4", {}),
+    ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
 ]
