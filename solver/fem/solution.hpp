@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "solver/fem/p4_mesh.hpp"
@@ -31,6 +32,9 @@ class FemSolution {
   /// At a point of the soil [m]. Between triangles of one soil the mean of theirs; where soils meet, that of
   /// the soil that the case names first. Throws std::runtime_error outside the mesh.
   FemPoint at(const Point&) const;
+
+  /// In one soil, the mean of its triangles there; nothing where the soil is not.
+  std::optional<FemPoint> in_soil(int soil, const Point&) const;
 
   /// Inside one triangle, without regard to its neighbours.
   FemPoint in_triangle(int triangle, const p4::Barycentric&) const;

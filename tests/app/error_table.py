@@ -67,6 +67,7 @@ IN_THE_CASE = [
     ("water twice", "[time]", "[water]\nlevel = 3\nstretches = [{level = 3}]\n[time]"),
     ("a spacing that no computer can hold", "spacing = 0.5", "spacing = 1e-9"),
     ("an end that no run reaches", "end = 0.1", "end = 1e9\ncourant = 1e-6"),
+    ("finite elements for what is not linear", "[[boundary]]", "no_tension = true\n[check]\nfinite_elements = true\n[[boundary]]"),
     ("more frames than anyone wants", "[time]", "[output]\ninterval = 1e-9\n[time]"),
 ]
 OF_THE_GROUND = [
