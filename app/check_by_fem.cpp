@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "app/memory.hpp"
-#include "solver/fem/applies.hpp"
+#include "solver/case/fem_obstacle.hpp"
 #include "solver/fem/compare.hpp"
 #include "solver/fem/demand.hpp"
 #include "solver/fem/solve.hpp"
@@ -86,7 +86,7 @@ void require_fem(const Case& scene) {
   const CheckCase& asked = scene.check;
   if (asked.finite_elements_auto || !asked.finite_elements) return;
   if (const std::string reason = obstacle(scene); !reason.empty())
-    throw std::runtime_error("check.finite_elements = true, but they do not apply: " + reason);
+    throw std::runtime_error("check.finite_elements = true: they are not possible: " + reason);
   FemDemand least;
   if (!affordable_edge(scene, never, least)) check_fem_demand(least, most_bytes());
 }

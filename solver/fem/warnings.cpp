@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/case/shapes.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 /// Of a soil that are enough for its stress to be resolved.
 constexpr double enough_rows = 4;
-constexpr double noticeable_contrast = 5, noticeable_volume = 0.01, noticeable_strain = 0.02;
+constexpr double noticeable_contrast = 2, noticeable_volume = 0.01, noticeable_strain = 0.02;
 
 bool touch(const SoilCase& a, const SoilCase& b, double dx) { return distance(a, b) < 1e-3 * dx; }
 
@@ -68,6 +69,33 @@ std::vector<std::string> of_the_soil(const Case& scene, const Particles& p, int 
   return causes;
 }
 
+/// Axis-parallel, so that a lattice follows it.
+bool is_upright(const Polygon& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point side = outline[(i + 1) % outline.size()] - outline[i];
+    if (side.x() != 0 && side.y() != 0) return false;
+  }
+  return true;
+}
+
+std::vector<std::string> of_the_arrangement(const Case& scene) {
+  if (scene.particles.arrangement == Arrangement::disordered) return {"the particles are disordered"};
+  const bool upright = std::all_of(scene.soils.begin(), scene.soils.end(),
+                                   [](const SoilCase& soil) { return is_upright(soil.polygon); });
+  if (scene.particles.arrangement == Arrangement::lattice && !upright)
+    return {"the lattice follows inclined lines in steps (arrangement = \"fitted\" or \"surface\" does not)"};
+  return {};
+}
+
+/// Whether particles see only one side there.
+bool at_the_outline(const Case& scene, const Point& x) {
+  const double reach = 2 * scene.smoothing_length();
+  const MeshLines lines = mesh_lines(scene);
+  return std::any_of(lines.lines.begin(), lines.lines.end(), [&](const MeshLine& line) {
+    return line.outline() && distance(x, x, lines.points[line.from], lines.points[line.to]) < reach;
+  });
+}
+
 std::vector<std::string> of_the_place(const Case& scene, const Point& x) {
   constexpr double near = 8;  // spacings
   const RoughPoint* nearest = nullptr;
@@ -89,7 +117,12 @@ std::vector<std::string> causes(const Case& scene, const Particles& p, const Fem
     add({fmt::format("its strain of {:.1f} % is more than finite elements of small strain are made for",
                      100 * check.strain)});
   add(of_the_soil(scene, p, soil));
+  add(of_the_arrangement(scene));
   add(of_the_place(scene, where));
+  if (at_the_outline(scene, where))
+    add({fmt::format(
+        "it is within the kernel's reach of the outline, and the section is resolved by spacings of {:g} m",
+        scene.particles.spacing)});
   return all;
 }
 

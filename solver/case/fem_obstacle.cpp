@@ -1,4 +1,4 @@
-#include "solver/fem/applies.hpp"
+#include "solver/case/fem_obstacle.hpp"
 
 #include <fmt/format.h>
 
