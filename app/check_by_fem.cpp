@@ -30,7 +30,7 @@ constexpr std::initializer_list<double> triangle_counts = {1600, 800, 400};
 double most_bytes() { return std::min(2e9, memory_here() / 4); }
 
 /// What stands against any comparison of this case.
-std::string obstacle(const Case& scene) {
+std::string obstacle([[maybe_unused]] const Case& scene) {
 #ifndef POROSPH_HAS_VTK
   return "this program was built without VTK, which makes the mesh";
 #else

@@ -50,6 +50,7 @@ Case unusual_case() {
   c.loading = {9.8065, true, true, 0.7, 0.001, false, 1.0 / 7};
   c.time = {1.0 / 3, 0.9};
   c.stop = {1e-5, false};
+  c.check = {.finite_elements = false, .finite_elements_auto = false};
   c.output = {0.01,
               {1.0 / 7, 0.2},
               0.001,
@@ -116,9 +117,11 @@ TEST_CASE("whether finite elements are used is a truth or auto") {
   }
   CHECK_THROWS_WITH(
       parse_case(table + "'auot'\n", "box.toml"),
-      Contains("key 'check.finite_elements' = \"auot\": must be true, false or \"auto\"; did you mean "
-               "'auto'?"));
-  CHECK_THROWS_WITH(parse_case(table + "1\n", "box.toml"), Contains("must be true, false or \"auto\""));
+      Catch::Matchers::Contains(
+          "key 'check.finite_elements' = \"auot\": must be true, false or \"auto\"; did you mean "
+          "'auto'?"));
+  CHECK_THROWS_WITH(parse_case(table + "1\n", "box.toml"),
+                    Catch::Matchers::Contains("must be true, false or \"auto\""));
 }
 
 TEST_CASE("damping is a number or adaptive") {
