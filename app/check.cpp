@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/check_by_fem.hpp"
 #include "app/command.hpp"
 #include "app/memory.hpp"
 #include "app/shipped_cases.hpp"
@@ -102,11 +103,13 @@ int check_command(const Arguments& arguments) {
     return Exit::done;
   const Case scene = read_case(find_case(case_file), overrides);
   check_memory(scene);
+  require_fem(scene);
   fmt::print("{} is valid: {}\n", case_file, scene.title);
   std::fflush(stdout);
   warn_of_known_failures(scene);
   const Demand demand = demand_of(scene);
   fmt::print("{:18}about {:.0f} MB\n", "memory", demand.bytes / 1e6);
+  fmt::print("{:18}{}\n", "finite elements", fem_outlook(scene));
   if (demand.particles > most_tried)
     tell_large(scene, demand);
   else

@@ -5,10 +5,11 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/memory.hpp"
 #include "app/results.hpp"
 #include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/case/shapes.hpp"
+#include "solver/fem/demand.hpp"
 #include "solver/fem/solve.hpp"
 #include "solver/model/water.hpp"
 #include "solver/simulation/probe.hpp"
@@ -23,11 +24,17 @@ namespace {
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
-/// About 1800 triangles before those that corners add.
-double usual_edge(const Case& scene) {
-  double whole = 0;
-  for (const SoilCase& soil : scene.soils) whole += area(soil);
-  return std::sqrt(whole) / 30;
+constexpr double usual_triangles = 2100;
+constexpr double long_wait = 10;  // s, that is announced
+
+/// Refuses what does not fit, announces what takes long.
+void check_demand(const Case& scene, double edge) {
+  const FemDemand demand = fem_demand(scene, edge);
+  check_fem_demand(demand, memory_here());
+  if (demand.seconds < long_wait) return;
+  fmt::print("about {:.3g} unknowns, {:.2g} GB of memory, {:.0f} s\n", demand.unknowns, demand.bytes / 1e9,
+             demand.seconds);
+  std::fflush(stdout);
 }
 
 /// In the order of probe_quantities().
@@ -47,8 +54,8 @@ std::string probe_table(const Case& scene, const FemSolution& solution) {
 }
 
 void tell(const Case& scene, const FemSolution& solution) {
-  fmt::print("{} triangles, {} unknowns, {:.2f} s\n", solution.mesh().triangles.size(), solution.unknowns,
-             solution.seconds);
+  fmt::print("{} triangles, {} unknowns, {:.2f} s, rounding {:.0e}\n", solution.mesh().triangles.size(),
+             solution.unknowns, solution.seconds, solution.rounding);
   for (const ProbeCase& probe : scene.probes) {
     const FemPoint p = solution.at(probe.position);
     fmt::print("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", probe.name, probe.position.x(),
@@ -73,7 +80,7 @@ int fem_command(const Arguments& arguments) {
       "out", po::value(&out)->value_name("DIR"),
       "folder for fem.vtu and probes.csv (default: results/<case>_fem)")(
       "edge", po::value(&edge)->value_name("METRES"),
-      "length of the triangles' edges far from corners (default: as makes about 1800 triangles)")(
+      "length of the triangles' edges far from corners (default: as makes about 2100 triangles)")(
       "set", po::value(&overrides)->value_name("KEY=VALUE"),
       "replaces a setting of the case; may be given again")("force", "replace another case's results");
   po::positional_options_description positional;
@@ -93,7 +100,9 @@ int fem_command(const Arguments& arguments) {
   const std::string case_text = write_case(scene);
   const FolderLock lock(folder);
   if (values.count("force") == 0) check_owner(folder, case_text, true);
-  const FemSolution solution = solve_fem(scene, mesh_case(scene, edge > 0 ? edge : usual_edge(scene)));
+  if (edge == 0) edge = fem_edge(scene, usual_triangles);
+  check_demand(scene, edge);
+  const FemSolution solution = solve_fem(scene, mesh_case(scene, edge));
   take_folder(folder, case_text);
   write_file(folder / "probes.csv", probe_table(scene, solution));
   write_fem_vtu(solution, folder / "fem.vtu");

@@ -10,17 +10,13 @@
 #include "solver/case/demand.hpp"
 
 namespace porosph::app {
-namespace {
 
-/// Of the machine, or of the container's share of it [bytes].
 double memory_here() {
   double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   double share = 0;
   if (std::ifstream limit("/sys/fs/cgroup/memory.max"); limit >> share) bytes = std::min(bytes, share);
   return bytes;
 }
-
-}  // namespace
 
 void check_memory(const Case& scene) {
   const double needed = demand_of(scene).bytes, there_is = memory_here();

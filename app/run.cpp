@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "app/check_by_fem.hpp"
 #include "app/command.hpp"
 #include "app/memory.hpp"
 #include "app/progress.hpp"
@@ -152,6 +153,7 @@ int run_command(const Arguments& arguments) {
   const Case scene = read_case(options->case_file, options->overrides);
   const std::string case_text = write_case(scene);
   check_memory(scene);
+  require_fem(scene);
   const FolderLock lock(options->folder);
   if (!options->force) check_owner(options->folder, case_text, options->resume);
   if (options->resume) {
@@ -199,9 +201,11 @@ int run_command(const Arguments& arguments) {
                                   .checkpoint = keep},
                                  left_off ? left_off->progress : RunProgress{});
   progress.finish();
-  const Summary summary = summarise(simulation, outcome, wall_seconds());
+  Summary summary = summarise(simulation, outcome, wall_seconds());
+  summary.finite_elements = check_by_fem(simulation, summary);
   results.finish(summary);
-  if (!options->quiet) std::cout << tell(summary);
+  if (!options->quiet) std::cout << tell(summary) << std::flush;
+  warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)
     std::cerr << "porosph: unstable: " << outcome.message << '\n';
   return exit_of(outcome.status);

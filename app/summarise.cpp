@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/check_by_fem.hpp"
 #include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/simulation/reference_errors.hpp"
@@ -97,6 +98,7 @@ std::string tell(const Summary& s) {
         fmt::format("{} against the exact solution: {:.3f} % (L2), at most {:.3f} {}\n", field,
                     100 * error.relative_l2, error.max_abs / (stress ? 1e3 : 1e-3), stress ? "kPa" : "mm");
   }
+  if (s.finite_elements) text += tell(*s.finite_elements);
   return text;
 }
 

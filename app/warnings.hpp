@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "solver/case/known_limits.hpp"
+#include "solver/output/frame.hpp"
 #include "solver/simulation/simulation.hpp"
 
 namespace porosph::app {
@@ -13,6 +14,13 @@ namespace porosph::app {
 /// Says on standard error which settings are known to fail.
 inline void warn_of_known_failures(const Case& scene) {
   for (const std::string& text : known_failures(scene)) std::cerr << "porosph: warning: " << text << '\n';
+}
+
+/// Says on standard error where a result is far from finite elements.
+inline void warn_of_differences(const Summary& summary) {
+  if (!summary.finite_elements) return;
+  for (const std::string& text : summary.finite_elements->warnings)
+    std::cerr << "porosph: warning: " << text << '\n';
 }
 
 /// Says on standard error where steps are smaller than the case asks for.

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -21,59 +21,90 @@
 namespace porosph {
 namespace {
 
-/// Points far around the soil, so that no edge of it lies on the triangulation's convex hull, which VTK may
-/// leave out.
-void surround(vtkPoints* points) {
-  double b[6];
-  points->GetBounds(b);
-  const Point centre((b[0] + b[1]) / 2, (b[2] + b[3]) / 2);
-  const double radius = Point(b[1] - b[0], b[3] - b[2]).norm();
-  for (int i = 0; i < 12; ++i) {
-    const double angle = (i + 0.3) * std::numbers::pi / 6;
-    points->InsertNextPoint(centre.x() + radius * std::cos(angle), centre.y() + radius * std::sin(angle), 0);
+/// Irregular points around the box of all, about 2 h apart and away from it: no edge of the soil may lie on
+/// the triangulation's convex hull, which VTK may leave out, and far points would make slivers along straight
+/// sides.
+std::vector<Point> surrounding(const std::vector<Point>& all, double h, std::mt19937& random) {
+  Eigen::AlignedBox2d box;
+  for (const Point& p : all) box.extend(p);
+  const double away = 2 * h;
+  box = Eigen::AlignedBox2d(box.min().array() - 1.5 * away, box.max().array() + 1.5 * away);
+  std::uniform_real_distribution<double> move(-0.4 * away, 0.4 * away);
+  std::vector<Point> ring;
+  for (int side = 0; side < 4; ++side) {
+    const Point from =
+        box.corner(std::array{box.BottomLeft, box.BottomRight, box.TopRight, box.TopLeft}[side]);
+    const Point to = box.corner(std::array{box.BottomRight, box.TopRight, box.TopLeft, box.BottomLeft}[side]);
+    const int pieces = static_cast<int>(std::ceil((to - from).norm() / away));
+    for (int i = 0; i < pieces; ++i) {
+      const Point p = from + (to - from) * i / pieces;
+      const double x = p.x() + move(random), y = p.y() + move(random);
+      ring.emplace_back(x, y);
+    }
   }
+  return ring;
 }
 
-/// The points, moved by up to `shift` [m]: vtkDelaunay2D leaves flat triangles between points that are
-/// collinear but for rounding. Only the connections are taken from the moved points.
-vtkNew<vtkPoints> moved(const std::vector<Point>& originals, double shift, unsigned seed) {
+/// The points' indices in an order that is random in the large and near in the small (Amenta, Choi and Rote
+/// 2003, Incremental constructions con BRIO): a random half, before it a random quarter, and so on, each
+/// sorted along the longer side of the box.
+std::vector<int> insertion_order(const std::vector<Point>& points, std::mt19937& random) {
+  const int count = static_cast<int>(points.size());
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = count - 1; i > 0; --i)  // std::shuffle is not the same everywhere
+    std::swap(order[i], order[random() % static_cast<unsigned>(i + 1)]);
+  Eigen::AlignedBox2d box;
+  for (const Point& p : points) box.extend(p);
+  const int along = box.sizes().x() > box.sizes().y() ? 0 : 1;
+  for (int end = count, begin; end > 0; end = begin) {
+    begin = end / 2;
+    const double strips =
+        std::max(1.0, std::sqrt((end - begin) * box.sizes().minCoeff() / box.sizes().maxCoeff()));
+    const double width = box.sizes()[1 - along] / strips;
+    const auto strip = [&](int i) {
+      return std::floor((points[i][1 - along] - box.min()[1 - along]) / width);
+    };
+    std::sort(order.begin() + begin, order.begin() + end, [&](int i, int j) {
+      return std::pair(strip(i), points[i][along]) < std::pair(strip(j), points[j][along]);
+    });
+  }
+  return order;
+}
+
+/// The Delaunay triangles of the points and of points around them, which have higher indices. Points are
+/// moved by up to 1e-7 h: vtkDelaunay2D leaves flat triangles between points that are collinear but for
+/// rounding. Inserted one straight line after the other they would make slivers, which it does not survive.
+/// Its own recovery of edges is not asked for: in long and thin sections it does not end.
+std::vector<std::array<int, 3>> triangulate(const std::vector<Point>& all, double h, unsigned seed) {
+  std::mt19937 random(seed);
+  const std::vector<Point> ring = surrounding(all, h, random);
+  const std::vector<int> order = insertion_order(all, random);
+  std::uniform_real_distribution<double> move(-1e-7 * h, 1e-7 * h);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> move(-shift, shift);
-  for (const Point& p : originals) {
-    const double x = p.x() + move(random), y = p.y() + move(random);
+  for (const Point& p : ring) points->InsertNextPoint(p.x(), p.y(), 0);
+  for (const int i : order) {
+    const double x = all[i].x() + move(random), y = all[i].y() + move(random);
     points->InsertNextPoint(x, y, 0);
   }
-  return points;
-}
-
-/// The triangles of all points, with the edges kept where VTK can.
-std::vector<std::array<int, 3>> triangulate(const MeshPoints& mesh, double h, unsigned seed) {
-  const auto points = moved(mesh.points, 1e-7 * h, seed);
-  surround(points);
-  vtkNew<vtkCellArray> edges;
-  for (const auto& [a, b] : mesh.edges) {
-    edges->InsertNextCell(2);
-    edges->InsertCellPoint(a);
-    edges->InsertCellPoint(b);
-  }
-  vtkNew<vtkPolyData> input, constraints;
+  vtkNew<vtkPolyData> input;
   input->SetPoints(points);
-  constraints->SetPoints(points);
-  constraints->SetLines(edges);
   vtkNew<vtkDelaunay2D> delaunay;
   delaunay->SetInputData(input);
-  delaunay->SetSourceData(constraints);
   delaunay->SetTolerance(1e-9);
   delaunay->Update();
 
+  const auto around = static_cast<vtkIdType>(ring.size());
+  const auto index = [&](vtkIdType i) {
+    return i < around ? static_cast<int>(all.size()) + static_cast<int>(i) : order[i - around];
+  };
   std::vector<std::array<int, 3>> triangles;
   vtkCellArray* cells = delaunay->GetOutput()->GetPolys();
   vtkIdType count;
   const vtkIdType* v;
   for (cells->InitTraversal(); cells->GetNextCell(count, v);)
-    triangles.push_back({static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])});
+    triangles.push_back({index(v[0]), index(v[1]), index(v[2])});
   return triangles;
 }
 
@@ -114,13 +145,13 @@ std::vector<std::size_t> lost_edges(const MeshPoints& wanted,
   return lost;
 }
 
-/// Triangles that have all the edges. What VTK did not recover is halved and tried again with other
-/// movements.
+/// Triangles that have all the edges. Those that are not among the Delaunay triangles are halved, until their
+/// pieces are (and VTK leaves out an edge now and then: so the points are moved otherwise each time).
 std::vector<std::array<int, 3>> triangulate_with_edges(MeshPoints& mesh, double h) {
-  constexpr unsigned tries = 6;
+  constexpr unsigned tries = 12;
   std::vector<std::size_t> lost;
   for (unsigned seed = 0; seed < tries; ++seed) {
-    auto triangles = triangulate(mesh, h, seed);
+    auto triangles = triangulate(mesh.points, h, seed);
     lost = lost_edges(mesh, triangles);
     if (lost.empty()) return triangles;
     for (const std::size_t edge : lost) {

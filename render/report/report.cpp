@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "render/report/comparison.hpp"
+#include "render/report/fem_check_section.hpp"
 #include "render/report/html.hpp"
 #include "render/report/report_pictures.hpp"
 #include "render/report/settings.hpp"
@@ -76,6 +77,8 @@ std::vector<std::string> warnings_of(const LoadedRun& r) {
         fmt::format("{} gained energy, {} of what moves and strains at its end: its motion equation does "
                     "not conserve it, and without damping it may become unstable",
                     r.label, number(100 * s.energy_growth, "{:.2g} %")));
+  if (s.finite_elements)
+    for (const std::string& text : s.finite_elements->warnings) warnings.push_back(r.label + ": " + text);
   return warnings;
 }
 
@@ -318,6 +321,9 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
     body += html::section(
         "Errors against the exact solution",
         "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
+  std::vector<Summary> told;
+  for (const LoadedRun& r : runs) told.push_back(*r.run.summary);
+  body += fem_check_section(labels, told);
   if (input.fem) {
     std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
     for (const LeftOut& o : input.left_out)

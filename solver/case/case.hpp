@@ -112,6 +112,12 @@ struct StopCase {
   bool on_separation = true;          ///< unstable when particles have left the body
 };
 
+/// What a run is held against by itself.
+struct CheckCase {
+  bool finite_elements = false;      ///< whether to compare with finite elements in any case
+  bool finite_elements_auto = true;  ///< where they apply and cost little, in place of the above
+};
+
 /// The files of the frames.
 enum class FrameFormat {
   poly_data,          ///< .vtp
@@ -151,6 +157,7 @@ struct Case {
   LoadingCase loading;
   TimeCase time;
   StopCase stop;
+  CheckCase check;
   OutputCase output;
   std::vector<ProbeCase> probes;
   Reference reference = Reference::none;

@@ -18,6 +18,9 @@ class Collector : public Fields {
   void numbers(const Key& key, std::vector<double>&, const Range&) override { add(key); }
   void integer(const Key& key, int&, const Range&) override { add(key); }
   void flag(const Key& key, bool&) override { add(key, {"true", "false"}); }
+  void flag_or(const Key& key, bool&, std::string_view word, bool&) override {
+    add(key, {std::string(word), "true", "false"});
+  }
   void text(const Key& key, std::string&) override { add(key); }
   void name(const Key& key, std::string&) override { add(key); }
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string>) override { add(key); }

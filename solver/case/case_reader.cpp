@@ -88,6 +88,18 @@ class Reader : public Fields {
   }
 
   void flag(const Key& key, bool& value) override { scalar(key, value, "true or false"); }
+  void flag_or(const Key& key, bool& value, std::string_view word, bool& is_word) override {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const auto given = node->value<std::string>();
+    if (is_word = given == word; is_word) return;
+    if (node->is_boolean())
+      value = *node->value<bool>();
+    else
+      fail(key, path(key),
+           fmt::format("must be true, false or \"{}\"{}", word,
+                       did_you_mean(nearest(given.value_or(""), {std::string(word)}))));
+  }
   void text(const Key& key, std::string& value) override { scalar(key, value, "text"); }
 
   void name(const Key& key, std::string& value) override {

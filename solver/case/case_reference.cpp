@@ -31,6 +31,13 @@ class Documenter : public Fields {
   void flag(const Key& key, bool& value) override {
     row(key, "truth", value ? "true" : "false", "`true`, `false`");
   }
+  void flag_or(const Key& key, bool& value, std::string_view word, bool& is_word) override {
+    row(key, "truth or text",
+        is_word ? std::string(word)
+        : value ? "true"
+                : "false",
+        fmt::format("`true`, `false`, `{}`", word));
+  }
   void text(const Key& key, std::string&) override { row(key, "text", "\"\"", "any"); }
   void name(const Key& key, std::string&) override { row(key, "text", "", "letters, digits, `_`, `-`"); }
   void words(const Key& key, std::vector<std::string>& values,

@@ -30,6 +30,9 @@ class Writer : public Fields {
   }
   void integer(const Key& key, int& value, const Range&) override { line(key, fmt::to_string(value)); }
   void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false"); }
+  void flag_or(const Key& key, bool& value, std::string_view word, bool& is_word) override {
+    line(key, is_word ? fmt::format("\"{}\"", word) : value ? "true" : "false");
+  }
   void text(const Key& key, std::string& value) override { line(key, toml_text(value)); }
   void name(const Key& key, std::string& value) override { line(key, toml_text(value)); }
   void words(const Key& key, std::vector<std::string>& values, std::span<const std::string>) override {

@@ -7,6 +7,7 @@
 
 #include "solver/case/check_boundaries.hpp"
 #include "solver/case/demand.hpp"
+#include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
 
 namespace porosph {
@@ -176,6 +177,9 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   for (std::size_t i = 0; i < c.output.fields.size(); ++i)
     if (c.output.fields[i] == "ExcessStress" && c.reference == Reference::none)
       issues.push_back({at("output.fields", i), "is the excess over the exact solution: needs 'reference'"});
+  if (!c.check.finite_elements_auto && c.check.finite_elements)
+    if (const std::string reason = fem_obstacle(c); !reason.empty())
+      issues.push_back({"check.finite_elements", "they do not apply: " + reason});
   return issues;
 }
 

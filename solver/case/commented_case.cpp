@@ -47,6 +47,13 @@ class Explainer : public Fields {
     line(key, fmt::to_string(value), range.text());
   }
   void flag(const Key& key, bool& value) override { line(key, value ? "true" : "false", "true or false"); }
+  void flag_or(const Key& key, bool& value, std::string_view word, bool& is_word) override {
+    line(key,
+         is_word ? fmt::format("\"{}\"", word)
+         : value ? "true"
+                 : "false",
+         fmt::format("true, false or \"{}\"", word));
+  }
   void text(const Key& key, std::string& value) override { line(key, toml_text(value), ""); }
   void name(const Key& key, std::string& value) override { line(key, toml_text(value), ""); }
   void words(const Key& key, std::vector<std::string>& values,

@@ -66,6 +66,7 @@ void declare(Fields& f, Case& c) {
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
   f.table(Key("time", "", "How far, and in which steps."), c.time);
   f.table(Key("stop", "", "When a run ends before its time."), c.stop);
+  f.table(Key("check", "", "What the result is held against by itself."), c.check);
   f.table(Key("output", "", "What is written, and when."), c.output);
   f.tables(Key("probe", "", "A point of the soil whose history is recorded."), c.probes);
 }
@@ -244,6 +245,16 @@ void declare(Fields& f, StopCase& c) {
            c.unbalanced_force_ratio, between(0, 1));
   f.flag(Key("on_separation", "", "Whether the run is unstable once particles have left the body."),
          c.on_separation);
+}
+
+void declare(Fields& f, CheckCase& c) {
+  f.flag_or(
+      Key("finite_elements", "",
+          "Whether the state of rest is compared with finite elements of small strain (docs/reports.md). "
+          "`\"auto\"`: where they apply and cost less than a tenth of the run; `true`: always, an error "
+          "where "
+          "they do not apply."),
+      c.finite_elements, "auto", c.finite_elements_auto);
 }
 
 void declare(Fields& f, OutputCase& c) {

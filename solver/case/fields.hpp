@@ -60,6 +60,7 @@ void declare(Fields&, FormulationCase&);
 void declare(Fields&, LoadingCase&);
 void declare(Fields&, TimeCase&);
 void declare(Fields&, StopCase&);
+void declare(Fields&, CheckCase&);
 void declare(Fields&, OutputCase&);
 void declare(Fields&, ProbeCase&);
 
@@ -73,6 +74,8 @@ class Fields {
   virtual void numbers(const Key&, std::vector<double>&, const Range&) = 0;  ///< each in the range
   virtual void integer(const Key&, int&, const Range&) = 0;
   virtual void flag(const Key&, bool&) = 0;
+  /// A truth, or one word in its place.
+  virtual void flag_or(const Key&, bool&, std::string_view word, bool& is_word) = 0;
   virtual void text(const Key&, std::string&) = 0;
   virtual void name(const Key&,
                     std::string&) = 0;  ///< letters, digits, '_' and '-': fit for paths and column heads

@@ -5,7 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 namespace porosph {
@@ -25,20 +27,55 @@ void hold(NodeFreedom& node, const BoundaryCase& boundary) {
   }
 }
 
-/// Per vertex, one vertex that stands for its connected part of the mesh.
-std::vector<int> connected_parts(const Mesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
+/// The parts of a mesh that can only move as one: triangles that share edges. Parts may still meet in single
+/// vertices, about which they can turn.
+struct Parts {
+  std::vector<int> of_triangle;
+  std::vector<int> first_triangle;  ///< per part
+};
+
+Parts parts_of(const Mesh& mesh) {
+  std::vector<int> parent(mesh.triangles.size());
   std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
+  const auto root = [&](int t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
   };
-  for (const auto& v : mesh.triangles) {
-    parent[root(v[1])] = root(v[0]);
-    parent[root(v[2])] = root(v[0]);
+  std::map<std::pair<int, int>, int> triangle_at;  // edge -> the first triangle that has it
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const auto& v = mesh.triangles[t];
+    for (int e = 0; e < 3; ++e) {
+      const int first = triangle_at.try_emplace(std::minmax(v[e], v[(e + 1) % 3]), t).first->second;
+      parent[std::max(root(first), root(t))] = std::min(root(first), root(t));
+    }
   }
-  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[v] = root(v);
-  return parent;
+  Parts parts{std::vector<int>(parent.size()), {}};
+  std::vector<int> number(parent.size());
+  for (int t = 0; t < static_cast<int>(parent.size()); ++t) {
+    if (root(t) == t) {
+      number[t] = static_cast<int>(parts.first_triangle.size());
+      parts.first_triangle.push_back(t);
+    }
+    parts.of_triangle[t] = number[root(t)];
+  }
+  return parts;
+}
+
+struct NodeParts {
+  std::vector<int> first;                   ///< per node, a part that it belongs to
+  std::vector<std::pair<int, int>> hinges;  ///< a node and another part that it belongs to
+};
+
+NodeParts parts_at_nodes(const P4Mesh& p4mesh, const Parts& parts) {
+  NodeParts at{std::vector<int>(p4mesh.nodes.size(), -1), {}};
+  std::set<std::pair<int, int>> known;
+  for (std::size_t t = 0; t < p4mesh.triangles.size(); ++t)
+    for (const int node : p4mesh.triangles[t]) {
+      const int part = parts.of_triangle[t];
+      if (at.first[node] < 0) at.first[node] = part;
+      if (at.first[node] != part && known.insert({node, part}).second) at.hinges.push_back({node, part});
+    }
+  return at;
 }
 
 std::string motion_name(const Eigen::Vector3d& mode) {
@@ -48,32 +85,53 @@ std::string motion_name(const Eigen::Vector3d& mode) {
   return fmt::format("move along ({:.3g}, {:.3g})", d.x() + 0.0, d.y() + 0.0);
 }
 
-/// The held directions of a part must exclude both translations and the rotation.
+/// What is held and where parts meet must leave no rigid motion: two translations and a rotation of each part
+/// are 3 unknowns, every held direction and every common vertex gives equations for them, and these must have
+/// no solution but rest.
 void check_rigid_motion(const Mesh& mesh, const P4Mesh& p4mesh, const Freedoms& freedoms) {
-  const std::vector<int> part = connected_parts(mesh);
-  std::vector<int> part_of_node(p4mesh.nodes.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const int node : p4mesh.triangles[t]) part_of_node[node] = part[mesh.triangles[t][0]];
+  const Parts parts = parts_of(mesh);
+  const auto part_count = static_cast<Eigen::Index>(parts.first_triangle.size());
+  const auto origin = [&](int part) { return mesh.vertices[mesh.triangles[parts.first_triangle[part]][0]]; };
   const double size = extent(mesh.vertices);
-  std::vector<Eigen::Matrix3d> held(mesh.vertices.size(), Eigen::Matrix3d::Zero());
-  for (std::size_t n = 0; n < p4mesh.nodes.size(); ++n) {
-    const NodeFreedom& node = freedoms.nodes[n];
-    const Point arm = (p4mesh.nodes[n] - mesh.vertices[part_of_node[n]]) / size;
-    for (int k = node.count; k < 2; ++k) {
-      const Point d = node.directions.col(k);
-      const Eigen::Vector3d row(d.x(), d.y(), arm.x() * d.y() - arm.y() * d.x());
-      held[part_of_node[n]] += row * row.transpose();
+  /// Displacement along d of a node as part of a rigid part.
+  const auto along = [&](const Point& d, const Point& node, int part) -> Eigen::Vector3d {
+    const Point arm = (node - origin(part)) / size;
+    return {d.x(), d.y(), arm.x() * d.y() - arm.y() * d.x()};
+  };
+  Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(3 * part_count, 3 * part_count);
+  const auto hold_node = [&](int n, int part) {
+    for (int k = freedoms.nodes[n].count; k < 2; ++k) {
+      const Eigen::Vector3d row = along(freedoms.nodes[n].directions.col(k), p4mesh.nodes[n], part);
+      equations.block<3, 3>(3 * part, 3 * part) += row * row.transpose();
+    }
+  };
+  const NodeParts at = parts_at_nodes(p4mesh, parts);
+  for (int n = 0; n < static_cast<int>(p4mesh.nodes.size()); ++n) hold_node(n, at.first[n]);
+  for (const auto& [n, other] : at.hinges) {
+    hold_node(n, other);
+    for (const Point& d : {Point(1, 0), Point(0, 1)}) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(3 * part_count);
+      row.segment<3>(3 * at.first[n]) = along(d, p4mesh.nodes[n], at.first[n]);
+      row.segment<3>(3 * other) = -along(d, p4mesh.nodes[n], other);
+      equations += row * row.transpose();
     }
   }
-  for (const auto& v : mesh.triangles) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(held[part[v[0]]]);
-    if (modes.eigenvalues()[0] > 1e-10 * std::max(1.0, modes.eigenvalues()[2])) continue;
-    const Point& at = mesh.vertices[v[0]];
-    throw std::runtime_error(fmt::format(
-        "finite elements: no boundary holds the soil around ({:.4g}, {:.4g}): it is free to {} as a rigid "
-        "body; add a fixed boundary or a roller along its outline",
-        at.x(), at.y(), motion_name(modes.eigenvectors().col(0))));
-  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(equations);
+  const double tiny = 1e-10 * std::max(1.0, modes.eigenvalues().tail<1>()[0]);
+  for (int part = 0; part < part_count; ++part)
+    for (Eigen::Index m = 0; m < 3 * part_count && modes.eigenvalues()[m] <= tiny; ++m) {
+      const Eigen::Vector3d motion = modes.eigenvectors().col(m).segment<3>(3 * part);
+      if (motion.norm() < 1e-6) continue;
+      const bool hinged = std::any_of(at.hinges.begin(), at.hinges.end(), [&](const auto& hinge) {
+        return hinge.second == part || at.first[hinge.first] == part;
+      });
+      throw std::runtime_error(
+          fmt::format("finite elements: no boundary holds the soil around ({:.10g}, {:.10g}): it is free to "
+                      "{} as a rigid "
+                      "body{}; add a fixed boundary or a roller along its outline",
+                      origin(part).x(), origin(part).y(), motion_name(motion),
+                      hinged ? ", as it touches the rest in a single point only" : ""));
+    }
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct Freedoms {
 };
 
 /// Every node on a boundary's segment is held by it: a roller across the segment, a fixed boundary wholly;
-/// rollers of different directions add up. Throws std::runtime_error if a connected part of the mesh can
-/// still move as a rigid body, and names the motion.
+/// rollers of different directions add up. Throws std::runtime_error if a part of the mesh can still
+/// move as a rigid body, and names the motion; a part that meets the rest in one vertex can turn about it.
 Freedoms constrain(const std::vector<BoundaryCase>&, const Mesh&, const P4Mesh&);
 
 /// Whether p lies on the segment from a to b, within `tolerance` [m].

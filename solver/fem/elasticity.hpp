@@ -18,4 +18,7 @@ Lame lame(const SoilCase&);
 /// strain.
 Eigen::Vector4d plane_strain_stress(const Lame&, const Eigen::Matrix2d& gradient);
 
+/// Principal strain of the largest size in plane strain, of an effective stress XX YY ZZ XY [-].
+double largest_strain(const Lame&, const Eigen::Vector4d& effective_stress);
+
 }  // namespace porosph

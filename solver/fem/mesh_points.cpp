@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "solver/case/shapes.hpp"
+
 namespace porosph {
 namespace {
 
@@ -73,30 +75,35 @@ class Neighbourhood {
 };
 
 /// Cells of a triangular lattice, u along x and v at 60 degrees, halved until they are as small as `size`
-/// asks.
+/// asks; those without soil are left out early.
 struct Lattice {
+  const Case& scene;
   const MeshSize& size;
   Point origin;
   std::vector<Point> centres;
 
+  bool near_soil(const Point& centre, double width) const {
+    return std::any_of(scene.soils.begin(), scene.soils.end(),
+                       [&](const SoilCase& soil) { return distance(centre, soil) <= width; });
+  }
   void fill(double u, double v, double width) {
     const Point centre = origin + Point(u + v / 2, v * std::sqrt(0.75));
     if (width <= size(centre) * (1 + 1e-9)) {
       centres.push_back(centre);
       return;
     }
+    if (width > 2 * size.h && !near_soil(centre, width)) return;
     for (const double du : {-0.25, 0.25})
       for (const double dv : {-0.25, 0.25}) fill(u + du * width, v + dv * width, width / 2);
   }
 };
 
-std::vector<Point> lattice_points(const Eigen::AlignedBox2d& box, const MeshSize& size) {
-  Lattice lattice{size, box.min(), {}};
-  const int rows = static_cast<int>(std::ceil(box.sizes().y() / (size.h * std::sqrt(0.75))));
-  const int columns = static_cast<int>(std::ceil(box.sizes().x() / size.h));
-  for (int row = 0; row <= rows; ++row)
-    for (int column = -1 - row / 2; column <= columns - row / 2; ++column)
-      lattice.fill((column + 0.5) * size.h, (row + 0.5) * size.h, size.h);
+/// From one cell that covers the box, h times a power of two wide.
+std::vector<Point> lattice_points(const Case& scene, const Eigen::AlignedBox2d& box, const MeshSize& size) {
+  const double rows = box.sizes().y() / (size.h * std::sqrt(0.75)), columns = box.sizes().x() / size.h;
+  const double half = size.h * std::exp2(std::ceil(std::log2(std::max(1.0, columns + rows / 2 + 1))));
+  Lattice lattice{scene, size, box.min(), {}};
+  lattice.fill(0, 0, 2 * half);
   return lattice.centres;
 }
 
@@ -109,7 +116,7 @@ MeshPoints mesh_points(const Case& scene, const MeshLines& lines, const MeshSize
   for (const auto& [a, b] : mesh.edges) taken.add((mesh.points[a] + mesh.points[b]) / 2);
   Eigen::AlignedBox2d box;
   for (const Point& p : lines.points) box.extend(p);
-  for (const Point& p : lattice_points(box, size))
+  for (const Point& p : lattice_points(scene, box, size))
     if (!taken.near(p, clearance * size(p)) && soil_at(scene, p) >= 0) mesh.points.push_back(p);
   return mesh;
 }

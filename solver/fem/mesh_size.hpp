@@ -20,11 +20,8 @@ struct MeshSize {
   double operator()(const Point& p) const;
 };
 
-/// Corners of the outline: where free parts meet, where the way that the outline is held changes, and where a
-/// soil interface or a water level ends on it other than at a roller (where it is taken to be level and so
-/// regular). Where stress is unbounded (a toe, the end of a fixed part or of an interface) the finest edge is
-/// h/64, where it only lacks derivatives (a crest, a water level) h/8: Williams 1952, J. Appl. Mech. 19. Ends
-/// of lines shorter than h count with their length.
+/// At the outline's rough_points() the finest edge is h/64 where stress is unbounded, h/8 where it only lacks
+/// derivatives. Ends of lines shorter than h count with their length.
 MeshSize mesh_size(const Case&, const MeshLines&, double h);
 
 }  // namespace porosph

@@ -26,9 +26,14 @@ FemPoint FemSolution::at(const Point& p) const {
         fmt::format("finite elements: the point ({}, {}) is outside the soil", p.x(), p.y()));
   int soil = mesh_.soils[hits.front().triangle];
   for (const auto& hit : hits) soil = std::min(soil, mesh_.soils[hit.triangle]);
+  return *in_soil(soil, p);
+}
+
+std::optional<FemPoint> FemSolution::in_soil(int soil, const Point& p) const {
   std::vector<FemPoint> readings;
-  for (const auto& hit : hits)
+  for (const auto& hit : locator_.find(mesh_, p))
     if (mesh_.soils[hit.triangle] == soil) readings.push_back(in_triangle(hit.triangle, hit.at));
+  if (readings.empty()) return std::nullopt;
   return mean(readings);
 }
 

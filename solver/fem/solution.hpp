@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "solver/fem/p4_mesh.hpp"
@@ -32,6 +33,9 @@ class FemSolution {
   /// the soil that the case names first. Throws std::runtime_error outside the mesh.
   FemPoint at(const Point&) const;
 
+  /// In one soil, the mean of its triangles there; nothing where the soil is not.
+  std::optional<FemPoint> in_soil(int soil, const Point&) const;
+
   /// Inside one triangle, without regard to its neighbours.
   FemPoint in_triangle(int triangle, const p4::Barycentric&) const;
 
@@ -39,8 +43,9 @@ class FemSolution {
   const P4Mesh& p4_mesh() const { return nodes_; }
   const Eigen::Matrix2Xd& displacement() const { return displacement_; }  ///< one column per node [m]
 
-  double seconds = 0;  ///< wall time from mesh to displacements [s]
-  int unknowns = 0;    ///< of the linear system
+  double seconds = 0;   ///< wall time from mesh to displacements [s]
+  int unknowns = 0;     ///< of the linear system
+  double rounding = 0;  ///< what rounding has spoilt, relative, in the norm of energy [-]
 
  private:
   std::vector<SoilCase> soils_;

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "solver/output/fem_check.hpp"
+
 namespace porosph {
 
 /// One array of particle data, SI units, particle-major: value c of particle i is values[i * width + c].
@@ -60,6 +62,7 @@ struct Summary {
   std::map<std::string, Probe> probes;
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  std::optional<FemCheck> finite_elements;  ///< what the run is held against by itself
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
 };
 

@@ -67,6 +67,7 @@ IN_THE_CASE = [
     ("water twice", "[time]", "[water]\nlevel = 3\nstretches = [{level = 3}]\n[time]"),
     ("a spacing that no computer can hold", "spacing = 0.5", "spacing = 1e-9"),
     ("an end that no run reaches", "end = 0.1", "end = 1e9\ncourant = 1e-6"),
+    ("finite elements for what is not linear", "[[boundary]]", "no_tension = true\n[check]\nfinite_elements = true\n[[boundary]]"),
     ("more frames than anyone wants", "[time]", "[output]\ninterval = 1e-9\n[time]"),
 ]
 OF_THE_GROUND = [
@@ -93,6 +94,8 @@ ON_THE_COMMAND_LINE = [
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
     ("finite elements into that folder", "fem case.toml --out other", {}),
+    ("finite elements that no memory holds", "fem case.toml --out fine --edge 1e-4", {}),
+    ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
 ]

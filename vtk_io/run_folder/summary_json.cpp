@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/fem_check_json.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
@@ -101,6 +102,7 @@ Json to_json(const Summary& summary) {
   put(json, "energy_growth", summary.energy_growth);
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
+  if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
   json["skipped"] = summary.skipped;
   return json;
 }
@@ -237,6 +239,7 @@ Summary summary_from(const Object& json) {
       summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
     }
   }
+  if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   const auto skipped = json.object("skipped");
   for (const auto& name : skipped.keys()) summary.skipped[name] = skipped.text(name);
   return summary;

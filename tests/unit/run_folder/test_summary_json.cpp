@@ -89,6 +89,28 @@ TEST_CASE("a summary comes back as it was") {
   CHECK(content(folder / "summary.json") == text);
 }
 
+TEST_CASE("the comparison with finite elements comes back as it was") {
+  const TemporaryFolder folder;
+  auto summary = example();
+  FemCheck& check = summary.finite_elements.emplace();
+  check.unknowns = 26176, check.seconds = 0.25, check.limit = 0.0625;
+  FemSoilCheck& sand = check.soils["sand"] = {1234, 56, 0.0125, {}};
+  sand.fields["EffectiveStress_XY"] = {std::nan(""), 0.25, 1500, 3.5, -0.5};
+  check.warnings = {"sigma'_xy of soil 'sand' is 25 % off"};
+  const auto found = written(folder, summary)["finite_elements"];
+  CHECK(found["soils"]["sand"]["fields"]["EffectiveStress_XY"]["relative_l2"].is_null());
+  CHECK(found["soils"]["sand"]["fields"]["EffectiveStress_XY"]["where"] == json::parse("[3.5, -0.5]"));
+  CHECK(found["limit"] == 0.0625);
+  const auto text = content(folder / "summary.json");
+  write_summary(folder / "summary.json", read_summary(folder / "summary.json"));
+  CHECK(content(folder / "summary.json") == text);
+
+  check = {};
+  check.skipped = "the water moves";
+  CHECK(written(folder, summary)["finite_elements"]["skipped"] == "the water moves");
+  CHECK(read_again(folder, summary).finite_elements->skipped == "the water moves");
+}
+
 TEST_CASE("every status has its name") {
   const TemporaryFolder folder;
   const std::vector<std::pair<RunStatus, std::string>> names{{RunStatus::completed, "completed"},

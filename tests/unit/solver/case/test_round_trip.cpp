@@ -51,6 +51,7 @@ Case unusual_case() {
   c.loading = {9.8065, true, true, 0.7, 0.001, false, 1.0 / 7};
   c.time = {1.0 / 3, 0.9};
   c.stop = {1e-5, false};
+  c.check = {.finite_elements = false, .finite_elements_auto = false};
   c.output = {0.01,
               {1.0 / 7, 0.2},
               0.001,
@@ -101,6 +102,27 @@ TEST_CASE("what is not given has its default, and stays so when written") {
   CHECK(c.reference == Reference::none);
   CHECK(same(parse_case(write_case(c), "written"), c));
   CHECK_FALSE(parse_case(write_case(c), "written").water.present());
+}
+
+TEST_CASE("whether finite elements are used is a truth or auto") {
+  CHECK(parse_case(small_case, "box.toml").check.finite_elements_auto);
+  const std::string table = small_case + "[check]\nfinite_elements = ";
+  CHECK(parse_case(table + "'auto'\n", "box.toml").check.finite_elements_auto);
+  for (const bool wanted : {true, false}) {
+    const Case scene = parse_case(table + (wanted ? "true\n" : "false\n"), "box.toml");
+    CHECK_FALSE(scene.check.finite_elements_auto);
+    CHECK(scene.check.finite_elements == wanted);
+    CHECK(same(parse_case(write_case(scene), "written"), scene));
+    CHECK(
+        parse_case(write_case(scene), "written", {"check.finite_elements=auto"}).check.finite_elements_auto);
+  }
+  CHECK_THROWS_WITH(
+      parse_case(table + "'auot'\n", "box.toml"),
+      Catch::Matchers::Contains(
+          "key 'check.finite_elements' = \"auot\": must be true, false or \"auto\"; did you mean "
+          "'auto'?"));
+  CHECK_THROWS_WITH(parse_case(table + "1\n", "box.toml"),
+                    Catch::Matchers::Contains("must be true, false or \"auto\""));
 }
 
 TEST_CASE("damping is a number or adaptive") {

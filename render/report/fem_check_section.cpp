@@ -1,0 +1,50 @@
+#include "render/report/fem_check_section.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "render/report/html.hpp"
+#include "render/run/shown_field.hpp"
+
+namespace porosph {
+namespace {
+
+std::string percent(double part) { return std::isfinite(part) ? fmt::format("{:.2g} %", 100 * part) : "–"; }
+
+std::string table_of(const FemCheck& check) {
+  std::vector<std::vector<std::string>> rows = {
+      {"Soil and field", "Difference (relative L2)", "Against the whole field", "At most", "There [m]"}};
+  for (const auto& [name, soil] : check.soils)
+    for (const auto& [field, d] : soil.fields) {
+      const ShownUnit unit = shown_unit(field.substr(0, field.find('_')), d.max_abs);
+      rows.push_back({name + ": " + field, percent(d.relative_l2), percent(d.relative),
+                      fmt::format("{:.3g} {}", d.max_abs * unit.factor, unit.name),
+                      fmt::format("({:.6g}, {:.6g})", d.x, d.y)});
+    }
+  return html::table(rows);
+}
+
+}  // namespace
+
+std::string fem_check_section(const std::vector<std::string>& labels, const std::vector<Summary>& summaries) {
+  std::string text;
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    const auto& check = summaries[i].finite_elements;
+    if (!check) continue;
+    if (!check->skipped.empty()) {
+      text += html::paragraph(labels[i] + " was not compared: " + check->skipped + ".");
+      continue;
+    }
+    text += html::paragraph(fmt::format(
+        "{}: {:.0f} unknowns, {:.2g} s. Finite elements of small strain, solved by the run itself, at the "
+        "particles; places near corners where stress is singular are left out. A difference of more than "
+        "{:.2g} % "
+        "of a component (or of a fifth of its field, where that is larger) is a warning.",
+        labels[i], check->unknowns, check->seconds, 100 * check->limit));
+    text += table_of(*check);
+  }
+  return text.empty() ? text : html::section("Checked by finite elements", text);
+}
+
+}  // namespace porosph

@@ -1,0 +1,19 @@
+#include "solver/case/fem_obstacle.hpp"
+
+#include <fmt/format.h>
+
+namespace porosph {
+
+std::string fem_obstacle(const Case& scene) {
+  for (const SoilCase& soil : scene.soils) {
+    if (soil.no_tension) return fmt::format("soil '{}' carries no tension, which is not linear", soil.name);
+    if (soil.velocity != Point::Zero() || soil.angular_velocity != 0 || soil.bending_velocity != 0)
+      return fmt::format("soil '{}' has an initial velocity", soil.name);
+  }
+  if (!scene.loading.gravity_applied) return "the scene is weightless";
+  if (scene.loading.k0_stress) return "the soil starts from the K0 stress";
+  if (!scene.water.level_over_time.empty()) return "the water moves";
+  return "";
+}
+
+}  // namespace porosph

@@ -1,0 +1,102 @@
+// What a run says of itself: its difference from finite elements.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/porosph.hpp"
+
+using namespace porosph;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const submerged_ground = R"(title = "Submerged ground"
+[particles]
+spacing = 0.25
+[[soil]]
+name = "sand"
+polygon = [[0, 0], [3, 0], [3, 5], [0, 5]]
+youngs_modulus = 15e6
+poissons_ratio = 0.3
+unit_weight_saturated = 20e3
+[water]
+level = 8
+[[boundary]]
+kind = "fixed"
+from = [0, 0]
+to = [3, 0]
+[[boundary]]
+kind = "roller"
+from = [0, 0]
+to = [0, 5]
+[[boundary]]
+kind = "roller"
+from = [3, 0]
+to = [3, 5]
+[loading]
+damping = "adaptive"
+[time]
+end = 20
+courant = 0.7
+[stop]
+unbalanced_force_ratio = 1e-5
+[check]
+finite_elements = true
+)";
+
+nlohmann::json check_of(const Workplace& place) {
+  return nlohmann::json::parse(text_of(place.folder() / "run/summary.json"))["finite_elements"];
+}
+
+}  // namespace
+
+TEST_CASE("a run at rest says how far it is from finite elements") {
+  const Workplace place;
+  place.write("ground.toml", submerged_ground);
+  const Outcome outcome = place.porosph("run ground.toml --out run");
+  CHECK(outcome.status == 0);
+  CHECK_THAT(outcome.out, Contains("soil 'sand' against finite elements: sigma'_"));
+  CHECK(outcome.err.empty());
+  const auto sand = check_of(place)["soils"]["sand"];
+  CHECK(sand["particles"] == 240);
+  CHECK(sand["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>() < 0.01);
+  CHECK(sand["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>() > 1e-5);
+  CHECK(place
+            .porosph("report run --out page --fail-if "
+                     "'finite_elements.soils.sand.fields.EffectiveStress_YY.relative_l2>0.01'")
+            .status == 0);
+  CHECK_THAT(text_of(place.folder() / "page/index.html"), Contains("Checked by finite elements"));
+}
+
+TEST_CASE("the conventional form is warned of, with its reason, also when quiet and in the report") {
+  const Workplace place;
+  place.write("ground.toml", submerged_ground);
+  const Outcome outcome =
+      place.porosph("run ground.toml --out run --quiet --set formulation.motion=conventional");
+  CHECK(outcome.status == 0);
+  const std::string reason = "of soil 'sand' is";
+  CHECK_THAT(outcome.err, Contains(reason) && Contains("% off finite elements, most at (") &&
+                              Contains("the conventional form, eq. (17), is known to be wrong under water"));
+  REQUIRE(place.porosph("report run --out page").status == 0);
+  CHECK_THAT(text_of(place.folder() / "page/index.html"), Contains("is known to be wrong under water"));
+}
+
+TEST_CASE("what is not compared says why") {
+  const Workplace place;
+  place.write("ground.toml", submerged_ground);
+  CHECK(place.porosph("run ground.toml --out run --set check.finite_elements=false").status == 0);
+  CHECK(check_of(place)["skipped"] == "check.finite_elements = false");
+  const Outcome moving = place.porosph("run ground.toml --out run --force --set time.end=0.05");
+  CHECK(moving.status == 0);
+  CHECK_THAT(check_of(place)["skipped"].get<std::string>(), Contains("ended in motion"));
+  CHECK_THAT(moving.out, Contains("not compared with finite elements: the run ended in motion"));
+  CHECK(place
+            .porosph("run ground.toml --out run --force --set soil.sand.no_tension=true --set "
+                     "check.finite_elements=auto")
+            .status == 0);
+  CHECK_THAT(check_of(place)["skipped"].get<std::string>(), Contains("'sand' carries no tension"));
+
+  const Outcome refused = place.porosph("run ground.toml --out other --set soil.sand.no_tension=true");
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Contains("key 'check.finite_elements' = true: they do not apply"));
+  CHECK_FALSE(std::filesystem::exists(place.folder() / "other"));
+}
