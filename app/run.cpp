@@ -160,8 +160,12 @@ int run_command(const Arguments& arguments) {
       return exit_of(done->status);
     }
   }
-  warn_of_known_failures(scene);
+  std::vector<std::string> warnings = warnings_of(scene);
+  warn(warnings);
   Simulation simulation(scene);
+  const std::vector<std::string> of_particles = warnings_of(simulation.model(), scene);
+  warn(of_particles);
+  warnings.insert(warnings.end(), of_particles.begin(), of_particles.end());
   warn_of_smaller_steps(simulation);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
@@ -199,7 +203,8 @@ int run_command(const Arguments& arguments) {
                                   .checkpoint = keep},
                                  left_off ? left_off->progress : RunProgress{});
   progress.finish();
-  const Summary summary = summarise(simulation, outcome, wall_seconds());
+  Summary summary = summarise(simulation, outcome, wall_seconds());
+  summary.warnings = warnings;
   results.finish(summary);
   if (!options->quiet) std::cout << tell(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)

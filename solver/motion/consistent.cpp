@@ -110,15 +110,14 @@ void ConsistentDynamics::make_corrections() {
 /// Then the images' L: their parents', mirrored.
 void ConsistentDynamics::close() {
   const std::size_t n = model_.particles.size();
-  const auto& fill = model_.particles.fill;
   kappa_.clear();
-  const bool full = std::all_of(fill.begin(), fill.end(), [](double f) { return f == 1; });
-  if (formulation_.closed_gradients && formulation_.kernel_correction && full) {
+  if (formulation_.closed_gradients && formulation_.kernel_correction) {
     std::vector<Mat2> corrections(n), reflections;
     for (std::size_t a = 0; a < n; ++a) corrections[a] = correction(a);
     for (const Reflection& r : reflection_) reflections.push_back(r.stress);
     Closure closure = close_gradients({.stencils = stencils_,
                                        .volumes = volume_,
+                                       .fill = model_.particles.fill,
                                        .correction = corrections,
                                        .images = images_,
                                        .reflections = reflections,

@@ -101,6 +101,7 @@ Json to_json(const Summary& summary) {
   put(json, "energy_growth", summary.energy_growth);
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
+  json["warnings"] = summary.warnings;
   json["skipped"] = summary.skipped;
   return json;
 }
@@ -125,6 +126,17 @@ class Object {
     const auto& value = at(key);
     if (!value.is_string()) fail(key, "must be a string", value);
     return value.get<std::string>();
+  }
+
+  std::vector<std::string> texts(const std::string& key) const {
+    const auto& value = at(key);
+    std::vector<std::string> result;
+    if (!value.is_array()) fail(key, "must be a list of strings", value);
+    for (const auto& item : value) {
+      if (!item.is_string()) fail(key, "must be a list of strings", item);
+      result.push_back(item.get<std::string>());
+    }
+    return result;
   }
 
   bool truth(const std::string& key) const {
@@ -237,6 +249,7 @@ Summary summary_from(const Object& json) {
       summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
     }
   }
+  if (json.has("warnings")) summary.warnings = json.texts("warnings");
   const auto skipped = json.object("skipped");
   for (const auto& name : skipped.keys()) summary.skipped[name] = skipped.text(name);
   return summary;
