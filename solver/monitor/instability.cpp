@@ -14,15 +14,20 @@ namespace porosph {
 namespace {
 
 /// As many digits as tell particles apart, however far from the origin [m].
-std::string place(const Model& model, const Vec2& position) {
+std::string metres(const Model& model, double x) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(model.spacing)))) + 2;
+  return fmt::format("{:.{}f}", x, decimals);
+}
+
+std::string place(const Model& model, const Vec2& position) {
   const Vec2 x = position + model.origin;
-  return fmt::format("({:.{}f}, {:.{}f}) m", x.x(), decimals, x.y(), decimals);
+  return fmt::format("({}, {}) m", metres(model, x.x()), metres(model, x.y()));
 }
 
 std::string name_of(const Model& model, std::size_t i) {
-  const Particles& p = model.particles;
-  return fmt::format("particle {} (from {})", p.id[i], place(model, p.start[i]));
+  const Vec2 start = model.particles.start[i] + model.origin;
+  return fmt::format("particle {} (from x = {} m, y = {} m)", model.particles.id[i], metres(model, start.x()),
+                     metres(model, start.y()));
 }
 
 bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); }

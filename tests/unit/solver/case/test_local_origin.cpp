@@ -53,5 +53,5 @@ TEST_CASE("messages name places to the centimetre, also far from zero") {
   model.particles.velocity[0] = {1e9, 0};
   const auto breakdown = find_runaway(model, 0);
   REQUIRE(breakdown);
-  CHECK_THAT(breakdown->message, Catch::Contains("(from (1000000.250, 4512345.500) m)"));
+  CHECK_THAT(breakdown->message, Catch::Contains("(from x = 1000000.250 m, y = 4512345.500 m)"));
 }
