@@ -1,8 +1,10 @@
 // porosph check: validates a case and says what it will cost.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "app/check_by_fem.hpp"
 #include "app/command.hpp"
@@ -12,6 +14,10 @@
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/demand.hpp"
+#include "solver/case/local_origin.hpp"
+#include "solver/case/plausibility.hpp"
+#include "solver/model/soil_volume.hpp"
+#include "solver/simulation/run.hpp"
 #include "solver/simulation/simulation.hpp"
 
 namespace porosph::app {
@@ -21,68 +27,135 @@ namespace po = boost::program_options;
 
 constexpr double most_tried = 5e4, tried_instead = 1e4;  // particles: more take long to place and to step
 
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
 /// Measured on the first steps of the case itself [s per step].
 double seconds_per_step(Simulation& s) {
-  using Clock = std::chrono::steady_clock;
   use_threads(0, s.model().particles.size());
   s.advance();  // the first one searches neighbours
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const Stopwatch watch;
   int steps = 0;
-  while (elapsed() < 0.5 && s.step() < s.last_step() && !s.instability()) s.advance(), ++steps;
-  return steps > 0 ? elapsed() / steps : 0;
+  while (watch.seconds() < 0.5 && s.step() < s.last_step() && !s.instability()) s.advance(), ++steps;
+  return steps > 0 ? watch.seconds() / steps : 0;
+}
+
+void print(std::string_view name, const std::string& text) { fmt::print("{:18}{}\n", name, text); }
+
+void print_water(const Case& scene) {
+  if (!scene.water.present()) return print("water", "none");
+  double whole = 0, wet = 0;
+  for (const SoilCase& soil : scene.soils) {
+    const SoilArea area = area_of(soil, scene.water);
+    whole += area.whole, wet += area.wet;
+  }
+  print("water", fmt::format("{:.4g} of {:.4g} m2 of soil are below its level ({:.3g} %)", wet, whole,
+                             100 * wet / whole));
 }
 
 void print_settings(const Case& scene) {
-  fmt::print("{:18}{:g} m, smoothing length {:g} m\n", "spacing", scene.particles.spacing,
-             scene.smoothing_length());
-  fmt::print("{:18}{}\n", "boundaries", scene.boundaries.size());
-  fmt::print("{:18}{}\n", "formulation", motion_name(scene.formulation.motion));
+  print("spacing", fmt::format("{:g} m, smoothing length {:g} m, {}", scene.particles.spacing,
+                               scene.smoothing_length(), arrangement_name(scene.particles.arrangement)));
+  print("boundaries", fmt::format("{}", scene.boundaries.size()));
+  print_water(scene);
+  if (const Settlement s = settlement_by_own_weight(scene); s.compression > 0)
+    print("own weight", fmt::format("lets soil '{}' settle by about {:.2g} % of its thickness",
+                                    scene.soils[s.soil].name, 100 * s.compression));
+  if (const Point origin = local_origin(scene); origin != Point::Zero())
+    print("origin", fmt::format("({:.0f}, {:.0f}) m is what positions are computed from; results are in the "
+                                "case's coordinates",
+                                origin.x(), origin.y()));
+  print("formulation", std::string(motion_name(scene.formulation.motion)));
 }
 
 void print_model(const Simulation& s) {
   const Model& m = s.model();
-  fmt::print("{:18}{}\n", "particles", m.particles.size());
+  print("particles", fmt::format("{}", m.particles.size()));
+  const std::vector<SoilVolume> volumes = soil_volumes(m, s.scene());
   for (std::size_t i = 0; i < m.soils.size(); ++i) {
-    const auto count =
-        std::count(m.particles.soil.begin(), m.particles.soil.end(), static_cast<std::int32_t>(i));
-    fmt::print("  {:16}{} of '{}', K = {:.4g} MPa, G = {:.4g} MPa\n", "", count, s.scene().soils[i].name,
-               m.soils[i].bulk_modulus() / 1e6, m.soils[i].shear_modulus() / 1e6);
+    const SoilCase& soil = s.scene().soils[i];
+    fmt::print(
+        "  {:16}{} of '{}' carry {:.5g} of its {:.5g} m2, K = {:.4g} MPa, G = {:.4g} MPa{}\n", "",
+        volumes[i].particles, soil.name, volumes[i].carried, volumes[i].drawn, m.soils[i].bulk_modulus() / 1e6,
+        m.soils[i].shear_modulus() / 1e6,
+        soil.no_tension ? "; no tension and no cohesion, shear strength unlimited in compression" : "");
   }
   print_settings(s.scene());
-  fmt::print("{:18}{:.4g} m/s\n", "wave speed c_p", m.wave_speed);
-  fmt::print("{:18}{:.4g} s, {} steps to {:g} s\n", "time step", s.time_step(), s.last_step(),
-             s.scene().time.end);
+  print("wave speed c_p", fmt::format("{:.4g} m/s", m.wave_speed));
+  print("time step",
+        fmt::format("{:.4g} s, {} steps to {:g} s", s.time_step(), s.last_step(), s.scene().time.end));
 }
 
-void print_run_time(double seconds, std::string_view measured_on) {
-  fmt::print("{:18}about {:.3g} s, if it runs to the end (measured on {})\n", "run time", seconds,
-             measured_on);
+/// The same body with as many particles as are soon computed; fixed damping, which is by the step, as strong
+/// in time. Its thin parts may hold none: throws std::runtime_error.
+Case coarser(const Case& scene, double particles, double wanted) {
+  Case coarse = scene;
+  const double ratio = std::max(1.0, std::sqrt(particles / wanted));
+  coarse.particles.spacing *= ratio;
+  coarse.loading.damping = std::min(1.0, scene.loading.damping * ratio);
+  return coarse;
+}
+
+/// When it comes to rest, by a run with few particles [s]; nothing where that does not, or takes too long.
+std::optional<double> time_to_rest(const Case& scene, double particles) {
+  constexpr double few = 600, longest = 2;  // s of computing
+  if (scene.stop.unbalanced_force_ratio <= 0) return std::nullopt;
+  try {
+    Simulation simulation(coarser(scene, particles, few));
+    const Stopwatch watch;
+    const RunOutcome outcome =
+        run(simulation, {.frame = {}, .history = {}, .progress = {}, .interrupted = [&] {
+                           return watch.seconds() > longest;
+                         }});
+    if (outcome.status == RunStatus::equilibrium) return simulation.time();
+  } catch (const std::runtime_error&) {
+  }
+  return std::nullopt;
+}
+
+void print_run_time(const Case& scene, double particles, double per_step, double steps,
+                    std::string_view measured_on) {
+  const double seconds = per_step * steps;
+  if (scene.stop.unbalanced_force_ratio <= 0)
+    return print("run time", fmt::format("about {:.2g} s (measured on {})", seconds, measured_on));
+  if (const auto rest = time_to_rest(scene, particles))
+    return print("run time",
+                 fmt::format("until at rest, about {:.2g} s, at {:.2g} s of {:g} s (measured on {})",
+                             seconds * *rest / scene.time.end, *rest, scene.time.end, measured_on));
+  print("run time", fmt::format("at most {:.2g} s; it is not known when it comes to rest (measured on {})",
+                                seconds, measured_on));
 }
 
 void tell_tried(const Case& scene) {
   Simulation simulation(scene);
+  warn(warnings_of(simulation.model(), scene));
   warn_of_smaller_steps(simulation);
   print_model(simulation);
-  print_run_time(seconds_per_step(simulation) * static_cast<double>(simulation.last_step()),
-                 "its first steps");
+  const double per_step = seconds_per_step(simulation);
+  print_run_time(scene, static_cast<double>(simulation.model().particles.size()), per_step,
+                 static_cast<double>(simulation.last_step()), "its first steps");
 }
 
-/// The same body with fewer particles tells how fast they go; its thin parts may not hold any.
+/// The same body with fewer particles tells how fast they go.
 void tell_large(const Case& scene, const Demand& demand) {
-  fmt::print("{:18}about {:.3g}\n", "particles", demand.particles);
+  print("particles", fmt::format("about {:.3g}", demand.particles));
   print_settings(scene);
-  fmt::print("{:18}about {:.3g} s, {:.3g} steps to {:g} s\n", "time step", scene.time.end / demand.steps,
-             demand.steps, scene.time.end);
-  Case coarse = scene;
-  coarse.particles.spacing *= std::sqrt(demand.particles / tried_instead);
+  print("time step", fmt::format("about {:.3g} s, {:.3g} steps to {:g} s", scene.time.end / demand.steps,
+                                 demand.steps, scene.time.end));
   try {
-    Simulation simulation(coarse);
+    Simulation simulation(coarser(scene, demand.particles, tried_instead));
     const double per_particle_step =
         seconds_per_step(simulation) / static_cast<double>(simulation.model().particles.size());
-    print_run_time(per_particle_step * demand.particles * demand.steps, "fewer particles");
+    print_run_time(scene, demand.particles, per_particle_step * demand.particles, demand.steps,
+                   "fewer particles");
   } catch (const std::runtime_error& error) {
-    fmt::print("{:18}not known: measured with fewer particles, {}\n", "run time", error.what());
+    print("run time", fmt::format("not known: measured with fewer particles, {}", error.what()));
   }
 }
 
@@ -106,10 +179,10 @@ int check_command(const Arguments& arguments) {
   require_fem(scene);
   fmt::print("{} is valid: {}\n", case_file, scene.title);
   std::fflush(stdout);
-  warn_of_known_failures(scene);
+  warn(warnings_of(scene));
   const Demand demand = demand_of(scene);
-  fmt::print("{:18}about {:.0f} MB\n", "memory", demand.bytes / 1e6);
-  fmt::print("{:18}{}\n", "finite elements", fem_outlook(scene));
+  print("memory", fmt::format("about {:.0f} MB", memory_needed(scene) / 1e6));
+  print("finite elements", fem_outlook(scene));
   if (demand.particles > most_tried)
     tell_large(scene, demand);
   else

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 constexpr const char* slope = R"(title = "My slope"
 [particles]
 spacing = 0.25
-arrangement = "fitted"
 [[soil]]
 name = "sand"
 polygon = [[0, 0], [30, 0], [30, 5], [20, 5], [10, 10], [0, 10]]

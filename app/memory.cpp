@@ -1,6 +1,7 @@
 #include "app/memory.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,8 +19,21 @@ double memory_here() {
   return bytes;
 }
 
+namespace {
+
+/// What the program took so far, its libraries above all [bytes].
+double memory_taken() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+double memory_needed(const Case& scene) { return memory_taken() + demand_of(scene).bytes; }
+
 void check_memory(const Case& scene) {
-  const double needed = demand_of(scene).bytes, there_is = memory_here();
+  const double needed = memory_needed(scene), there_is = memory_here();
   if (needed > there_is)
     throw std::runtime_error(
         fmt::format("the case needs about {:.3g} GB of memory and there is {:.3g} GB: choose a larger "

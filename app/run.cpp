@@ -162,8 +162,12 @@ int run_command(const Arguments& arguments) {
       return exit_of(done->status);
     }
   }
-  warn_of_known_failures(scene);
+  std::vector<std::string> warnings = warnings_of(scene);
+  warn(warnings);
   Simulation simulation(scene);
+  const std::vector<std::string> of_particles = warnings_of(simulation.model(), scene);
+  warn(of_particles);
+  warnings.insert(warnings.end(), of_particles.begin(), of_particles.end());
   warn_of_smaller_steps(simulation);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
@@ -203,6 +207,7 @@ int run_command(const Arguments& arguments) {
   progress.finish();
   Summary summary = summarise(simulation, outcome, wall_seconds());
   summary.finite_elements = check_by_fem(simulation, summary);
+  summary.warnings = warnings;
   results.finish(summary);
   if (!options->quiet) std::cout << tell(summary) << std::flush;
   warn_of_differences(summary);

@@ -1,20 +1,23 @@
 // Warnings before a run starts.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <iostream>
+#include <string>
+#include <vector>
 
-#include "solver/case/known_limits.hpp"
 #include "solver/output/frame.hpp"
 #include "solver/simulation/simulation.hpp"
 
 namespace porosph::app {
 
-/// Says on standard error which settings are known to fail.
-inline void warn_of_known_failures(const Case& scene) {
-  for (const std::string& text : known_failures(scene)) std::cerr << "porosph: warning: " << text << '\n';
-}
+/// What the case alone tells: settings that are known to fail, values that can hardly be meant.
+std::vector<std::string> warnings_of(const Case& scene);
+
+/// What its particles tell besides: a lattice that misses the drawn volume, water that wets no particle.
+std::vector<std::string> warnings_of(const Model& model, const Case& scene);
+
+/// Says them on standard error.
+void warn(const std::vector<std::string>& warnings);
 
 /// Says on standard error where a result is far from finite elements.
 inline void warn_of_differences(const Summary& summary) {
@@ -24,14 +27,6 @@ inline void warn_of_differences(const Summary& summary) {
 }
 
 /// Says on standard error where steps are smaller than the case asks for.
-inline void warn_of_smaller_steps(const Simulation& simulation) {
-  const double asked = simulation.scene().time.courant;
-  if (simulation.courant() < asked)
-    std::cerr << fmt::format(
-        "porosph: note: the stiffest of the disordered particles allows time.courant = {:.2g}, which is "
-        "taken "
-        "in place of {:g}\n",
-        simulation.courant(), asked);
-}
+void warn_of_smaller_steps(const Simulation& simulation);
 
 }  // namespace porosph::app

@@ -17,15 +17,17 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 
 /// How the particles fill the soil's polygons.
 enum class Arrangement {
-  lattice,     ///< square lattice, cell centres inside or on the outline; every particle the same volume
-  fitted,      ///< square lattice whose cells are clipped by the outline: volumes and centroids fit it
+  automatic,  ///< surface on level ground, else stretched: arrangement_for()
+  lattice,  ///< square lattice, cell centres inside or on the outline; a soil's particles have equal volumes
+  fitted,   ///< square lattice whose cells are clipped by the outline: volumes and centroids fit it
   disordered,  ///< fitted cells of randomly displaced points (for tests of robustness)
   surface,     ///< rows of particles on the free surfaces, with the part of a cell that is soil
+  stretched,   ///< cells stretched so that whole rows and columns end at level and upright outlines
 };
 
 struct ParticlesCase {
   double spacing = 0;            ///< dx [m]
-  double smoothing_ratio = 1.2;  ///< h / dx
+  double smoothing_ratio = 1.2;  ///< h / dx; in a file 1 with automatic, surface and stretched
   Arrangement arrangement = Arrangement::lattice;
   double disorder = 0;  ///< largest random displacement / dx, with Arrangement::disordered
   int seed = 1;         ///< of the random displacements
@@ -40,7 +42,8 @@ struct SoilCase {
   double poissons_ratio = 0;           ///< nu [-]
   double unit_weight_saturated = 0;    ///< gamma_sat [N/m3]
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
-  bool no_tension = false;             ///< no effective stress where its mean would be tensile
+  bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
+                            ///< unlimited where the mean is compressive
   Point velocity = Point::Zero();      ///< initial velocity [m/s]
   double angular_velocity = 0;         ///< initial, counter-clockwise about the polygon's middle [rad/s]
   double bending_velocity = 0;  ///< initial, upwards at the tip of a plate clamped at its left end, in the

@@ -39,6 +39,9 @@ std::string describe_case_format();
 /// or the per-particle ones of the consistent form.
 FormulationCase default_formulation(Motion motion);
 
+/// The name of an arrangement in case files ("surface").
+std::string_view arrangement_name(Arrangement arrangement);
+
 /// The name of a momentum form in case files ("consistent").
 std::string_view motion_name(Motion motion);
 

@@ -21,6 +21,8 @@ std::string at(std::string_view list, std::size_t i, std::string_view key = "") 
   return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
 }
 
+std::string place_text(const Point& p) { return fmt::format("({:.10g}, {:.10g})", p.x(), p.y()); }
+
 template <class T>
 void check_names(const std::vector<T>& items, std::string_view list, Issues& issues) {
   for (std::size_t i = 0; i < items.size(); ++i)
@@ -29,6 +31,16 @@ void check_names(const std::vector<T>& items, std::string_view list, Issues& iss
         issues.push_back({at(list, i, "name"), fmt::format("is the name of {} too", at(list, j))});
         break;
       }
+}
+
+struct Box {
+  Point low, high;
+};
+
+Box box_of(const SoilCase& soil) {
+  Box box{soil.polygon[0], soil.polygon[0]};
+  for (const Point& p : soil.polygon) box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
+  return box;
 }
 
 // Outlines by themselves: what follows relies on them.
@@ -55,22 +67,28 @@ void check_soils(const Case& c, Issues& issues) {
                         fmt::format("soil '{}' is {:.4g} m thick, less than particles.spacing = {} m",
                                     c.soils[i].name, width, dx)});
     for (std::size_t j = 0; j < i; ++j) {
-      const double common = overlap(c.soils[i], c.soils[j]), gap = distance(c.soils[i], c.soils[j]);
-      if (common > 1e-6 * dx * dx) {
-        issues.push_back({at("soil", i, "polygon"), fmt::format("soils '{}' and '{}' overlap by {:.4g} m2",
-                                                                c.soils[j].name, c.soils[i].name, common)});
+      const Overlap common = overlap(c.soils[i], c.soils[j]);
+      const double gap = distance(c.soils[i], c.soils[j]);
+      if (common.area > 1e-6 * dx * dx) {
+        issues.push_back(
+            {at("soil", i, "polygon"),
+             fmt::format("soils '{}' and '{}' overlap by {:.4g} m2, between {} and {}", c.soils[j].name,
+                         c.soils[i].name, common.area, place_text(common.low), place_text(common.high))});
       } else if (gap > 1e-3 * dx && gap < dx * (1 - 1e-9)) {
-        issues.push_back({at("soil", i, "polygon"),
-                          fmt::format("soils '{}' and '{}' are {:.4g} m apart, less than particles.spacing = "
-                                      "{} m: they must touch, or keep clear of each other",
-                                      c.soils[j].name, c.soils[i].name, gap, dx)});
+        issues.push_back(
+            {at("soil", i, "polygon"),
+             fmt::format("soils '{}' and '{}' are {:.4g} m apart at {}, less than "
+                         "particles.spacing = {} m: they must touch, or keep clear of each other",
+                         c.soils[j].name, c.soils[i].name, gap,
+                         place_text(nearest_points(c.soils[i], c.soils[j]).first), dx)});
       } else if (gap <= 1e-3 * dx) {
-        const double slit = slit_length(c.soils, i, j, dx);
-        if (slit > longest_slit * dx)
-          issues.push_back({at("soil", i, "polygon"),
-                            fmt::format("soils '{}' and '{}' leave a slit between them that is narrower than "
-                                        "particles.spacing = {} m over {:.4g} m: close it or widen it",
-                                        c.soils[j].name, c.soils[i].name, dx, slit)});
+        const Slit slit = find_slit(c.soils, i, j, dx);
+        if (slit.length > longest_slit * dx)
+          issues.push_back(
+              {at("soil", i, "polygon"),
+               fmt::format("soils '{}' and '{}' leave a slit between them that is narrower than "
+                           "particles.spacing = {} m over {:.4g} m, at {}: close it or widen it",
+                           c.soils[j].name, c.soils[i].name, dx, slit.length, place_text(slit.place))});
       }
     }
   }
@@ -96,6 +114,47 @@ void check_water(const Case& c, Issues& issues) {
         issues.push_back({at("water.stretches", i), fmt::format("overlaps {}", at("water.stretches", j))});
 }
 
+/// Where a stretch lies beside a soil: the distance, and whether it reaches the soil, over it or at an
+/// upright face.
+struct Reach {
+  double away = never;  // [m]
+  bool touches = false;
+  std::string soil;
+};
+
+Reach reach_of(const WaterStretch& s, const Case& c) {
+  const double tolerance = 1e-3 * c.particles.spacing;
+  Reach reach;
+  for (const SoilCase& soil : c.soils) {
+    const auto [low, high] = box_of(soil);
+    const double away = std::max(low.x() - s.x_to, s.x_from - high.x());
+    if (away < reach.away) reach.away = away, reach.soil = soil.name;
+    if (away < -tolerance) reach.touches = true;
+    if (std::abs(away) > tolerance) continue;
+    const double face = std::abs(s.x_to - low.x()) <= tolerance ? low.x() : high.x();
+    const Polygon& p = soil.polygon;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Point &a = p[i], &b = p[(i + 1) % p.size()];
+      const bool on_it = std::abs(a.x() - face) <= tolerance && std::abs(b.x() - face) <= tolerance;
+      reach.touches |= on_it && std::min(a.y(), b.y()) < s.level;
+    }
+  }
+  return reach;
+}
+
+void check_stretches(const Case& c, Issues& issues) {
+  for (std::size_t i = 0; i < c.water.stretches.size(); ++i) {
+    const WaterStretch& s = c.water.stretches[i];
+    const Reach reach = reach_of(s, c);
+    if (reach.touches) continue;
+    const std::string why =
+        reach.away > 1e-3 * c.particles.spacing
+            ? fmt::format("it ends {:.4g} m beside soil '{}', the nearest", reach.away, reach.soil)
+            : fmt::format("where it ends soil '{}' has no upright face below its level", reach.soil);
+    issues.push_back({at("water.stretches", i), "touches no soil: " + why});
+  }
+}
+
 void check_probes(const Case& c, Issues& issues) {
   for (std::size_t i = 0; i < c.probes.size(); ++i) {
     const auto is_in = [&](const SoilCase& soil) {
@@ -117,16 +176,6 @@ bool is_covered(const Case& c, const Point& a, const Point& b, BoundaryKind kind
     };
     return boundary.kind == kind && reaches(a) && reaches(b);
   });
-}
-
-struct Box {
-  Point low, high;
-};
-
-Box box_of(const SoilCase& soil) {
-  Box box{soil.polygon[0], soil.polygon[0]};
-  for (const Point& p : soil.polygon) box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
-  return box;
 }
 
 bool is_upright_rectangle(const SoilCase& soil) {
@@ -196,6 +245,7 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
     if (!fault.empty()) issues.push_back({at("soil", i, "bending_velocity"), fault});
   }
   check_probes(c, issues);
+  check_stretches(c, issues);
   if (!soils_are_sound) return issues;
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());

@@ -4,13 +4,15 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/case/outline_edges.hpp"
 #include "solver/model/water.hpp"
 
 namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 4> arrangements{"lattice", "fitted", "disordered", "surface"};
+constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
+                                            "disordered", "surface", "stretched"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
@@ -21,6 +23,13 @@ bool level_everywhere(const WaterCase& c) {
   return c.stretches.size() == 1 && c.stretches[0].x_from == -never && c.stretches[0].x_to == never;
 }
 
+/// By the maps of docs/stability.md; the paper's lattices have 1.2.
+double default_smoothing_ratio(Arrangement arrangement) {
+  const bool fits = arrangement == Arrangement::automatic || arrangement == Arrangement::surface ||
+                    arrangement == Arrangement::stretched;
+  return fits ? 1 : 1.2;
+}
+
 }  // namespace
 
 std::string Range::text() const {
@@ -28,6 +37,10 @@ std::string Range::text() const {
   const std::string high = max == never ? "" : fmt::format("{} {:.6g}", max_included ? "<=" : "<", max);
   if (low.empty() && high.empty()) return "any";
   return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+std::string_view arrangement_name(Arrangement arrangement) {
+  return arrangements[static_cast<std::size_t>(arrangement)];
 }
 
 std::string_view motion_name(Motion motion) { return motions[static_cast<std::size_t>(motion)]; }
@@ -62,6 +75,9 @@ void declare(Fields& f, Case& c) {
                "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
                "soil; boundaries that meet do so at a right angle or in one line."),
            c.boundaries);
+  f.set_defaults([&] {
+    if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
+  });
   f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
   f.table(Key("time", "", "How far, and in which steps."), c.time);
@@ -74,14 +90,22 @@ void declare(Fields& f, Case& c) {
 void declare(Fields& f, ParticlesCase& c) {
   f.number(Key("spacing", "m", "Distance of neighbouring particles, dx.").required(), c.spacing,
            above(0, farthest));
-  f.number(Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx."), c.smoothing_ratio,
-           between(0.8, 3));
+  f.set_defaults([&] { c.arrangement = Arrangement::automatic; });
   f.choice(
       Key("arrangement", "",
-          "`lattice`: square cells with their centre in the soil; `fitted`: cells clipped by the outline; "
-          "`disordered`: cells around randomly displaced points; `surface`: cells with their middle on free "
-          "surfaces and their ends at walls (with smoothing_ratio = 1 a linear stress is then exact)."),
+          "`surface`: cells with their middle on free surfaces and their ends at walls (with "
+          "smoothing_ratio = 1 a linear stress is then exact); `stretched`: cells stretched so that whole "
+          "ones "
+          "fit between level and upright stretches of the outline, clipped where it slopes; `automatic`: "
+          "`surface` where all outlines are level or upright and all free ones level, else `stretched`; "
+          "`fitted`: square cells clipped by the outline; `lattice`: square cells with their centre in the "
+          "soil; `disordered`: cells around randomly displaced points. All carry the soil's drawn volume.")
+          .otherwise("automatic"),
       c.arrangement, arrangements);
+  f.set_defaults([&] { c.smoothing_ratio = default_smoothing_ratio(c.arrangement); });
+  f.number(Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx.")
+               .otherwise("1, but 1.2 with lattice, fitted and disordered"),
+           c.smoothing_ratio, between(0.8, 3));
   const bool disordered = c.arrangement == Arrangement::disordered;
   f.number(Key("disorder", "", "Largest random displacement over spacing.")
                .only_if(disordered, "arrangement = \"disordered\""),
@@ -110,7 +134,8 @@ void declare(Fields& f, SoilCase& c) {
     f.reject("unit_weight_unsaturated",
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
   f.flag(Key("no_tension", "",
-             "No tension and no cohesion: no effective stress where its mean would be tensile."),
+             "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
+             "compressive the soil stays elastic and its shear strength is unlimited: nothing slips."),
          c.no_tension);
   f.point(Key("velocity", "m/s", "At the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
@@ -132,7 +157,7 @@ void declare(Fields& f, WaterCase& c) {
            level, between(-farthest, farthest));
   f.tables(Key("stretches", "",
                "A stretch of the free surface, in place of one `level`; soil outside all stretches "
-               "is dry."),
+               "is dry. One that ends at an upright face of a soil presses on that face."),
            stretches);
   f.pairs(Key("level_over_time", "s, m",
               "A free surface that rises and falls, in place of one `level`: its y over time, linear between "

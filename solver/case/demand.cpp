@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "solver/case/shapes.hpp"
 #include "solver/soil/elasticity.hpp"
@@ -9,7 +10,17 @@
 namespace porosph {
 namespace {
 
-constexpr double bytes_per_particle = 1200;  // state, about 20 neighbours, their gradients
+/// Measured peaks: state, images, remembered states, frames; neighbours, and their gradients where particles
+/// do not share them.
+double bytes_per_particle(const Case& scene) {
+  const double support = 2 * scene.particles.smoothing_ratio,
+               neighbours = std::numbers::pi * support * support;
+  const bool shared = scene.particles.arrangement != Arrangement::disordered;
+  const bool consistent = scene.formulation.motion == Motion::consistent;
+  const double of_pair = scene.formulation.single_precision ? 23 : 35;
+  if (!consistent) return 850 + neighbours * (shared ? 12 : 24);
+  return 670 + neighbours * (shared ? 4 : of_pair);
+}
 
 /// Of the fastest compression wave, in the lightest state of each soil [m/s].
 double wave_speed(const Case& scene) {
@@ -31,7 +42,7 @@ Demand demand_of(const Case& scene) {
   for (const SoilCase& soil : scene.soils) whole += area(soil);
   Demand demand;
   demand.particles = whole / (scene.particles.spacing * scene.particles.spacing);
-  demand.bytes = demand.particles * bytes_per_particle + 1e7;
+  demand.bytes = demand.particles * bytes_per_particle(scene);
   const double time_step_bound = scene.time.courant * scene.smoothing_length();
   demand.steps = scene.time.end * wave_speed(scene) / time_step_bound;
   return demand;

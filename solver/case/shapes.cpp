@@ -59,26 +59,34 @@ bool is_flat(const Polygon& p) {
 Point point(const BoostPoint& p) { return {p.x(), p.y()}; }
 
 // How much of the segment from a to b looks across less than `width` at `other`, with none of the soils
-// between [m]. What the segment is an outline of lies on its right.
-double length_at_a_slit(const Point& a, const Point& b, const BoostPolygon& other,
-                        const std::vector<BoostPolygon>& soils, double width) {
-  if (bg::distance(BoostSegment(boost_point(a), boost_point(b)), other) >= width) return 0;
+// between. What the segment is an outline of lies on its right.
+Slit slit_along(const Point& a, const Point& b, const BoostPolygon& other,
+                const std::vector<BoostPolygon>& soils, double width) {
+  if (bg::distance(BoostSegment(boost_point(a), boost_point(b)), other) >= width) return {};
   const double length = (b - a).norm();
   const double pieces =
       std::clamp(std::ceil(2 * length / width), 1., 200.);  // enough to find one on a long edge
   const Point outward = Point(a.y() - b.y(), b.x() - a.x()) / length;
   int found = 0;
+  Point place = Point::Zero();
   for (int k = 0; k < pieces; ++k) {
     const Point p = a + (b - a) * ((k + 0.5) / pieces);
     const double gap = bg::distance(boost_point(p), other);
     if (gap <= 1e-3 * width || gap >= width) continue;
     const BoostPoint halfway = boost_point(p + 0.5 * gap * outward);
     const BoostPoint beyond = boost_point(p + 1.1 * gap * outward);  // of an edge askew by up to 24 degrees
-    found += bg::within(beyond, other) && std::none_of(soils.begin(), soils.end(), [&](const auto& soil) {
-               return bg::within(halfway, soil);
-             });
+    const bool is_slit =
+        bg::within(beyond, other) &&
+        std::none_of(soils.begin(), soils.end(), [&](const auto& soil) { return bg::within(halfway, soil); });
+    if (is_slit && found++ == 0) place = p + 0.5 * gap * outward;
   }
-  return found * std::min(length / pieces, width / 2);
+  return {found * std::min(length / pieces, width / 2), place};
+}
+
+std::vector<const Polygon*> rings(const SoilCase& soil) {
+  std::vector<const Polygon*> all{&soil.polygon};
+  for (const Polygon& hole : soil.holes) all.push_back(&hole);
+  return all;
 }
 
 }  // namespace
@@ -92,7 +100,7 @@ std::string outline_fault(const Polygon& outline) {
   std::string message;
   if (bg::is_valid(boost_polygon(outline), message)) return "";
   const auto contact = self_contact(outline);
-  return contact ? fmt::format("crosses or touches itself at ({:.6g}, {:.6g})", contact->x(), contact->y())
+  return contact ? fmt::format("crosses or touches itself at ({:.10g}, {:.10g})", contact->x(), contact->y())
                  : message;
 }
 
@@ -125,27 +133,52 @@ double thickness(const Polygon& outline) {
   return least;
 }
 
-double overlap(const SoilCase& a, const SoilCase& b) {
+Overlap overlap(const SoilCase& a, const SoilCase& b) {
   bg::model::multi_polygon<BoostPolygon> common;
   bg::intersection(boost_polygon(a), boost_polygon(b), common);
-  return bg::area(common);
+  if (common.empty()) return {};
+  const auto box = bg::return_envelope<bg::model::box<BoostPoint>>(common);
+  return {bg::area(common), point(box.min_corner()), point(box.max_corner())};
 }
 
 double distance(const SoilCase& a, const SoilCase& b) {
   return bg::distance(boost_polygon(a), boost_polygon(b));
 }
 
+std::pair<Point, Point> nearest_points(const SoilCase& a, const SoilCase& b) {
+  double least = never;
+  std::pair<Point, Point> nearest;
+  const auto look = [&](const SoilCase& corners, const SoilCase& edges, bool swapped) {
+    for (const Polygon* from : rings(corners))
+      for (const Point& p : *from)
+        for (const Polygon* ring : rings(edges))
+          for (std::size_t i = 0; i < ring->size(); ++i) {
+            const Point& start = (*ring)[i];
+            const Point line = (*ring)[(i + 1) % ring->size()] - start;
+            const Point q = start + std::clamp((p - start).dot(line) / line.squaredNorm(), 0., 1.) * line;
+            if ((p - q).norm() >= least) continue;
+            least = (p - q).norm();
+            nearest = swapped ? std::pair(q, p) : std::pair(p, q);
+          }
+  };
+  look(a, b, false), look(b, a, true);  // of two segments apart, one end is nearest
+  return nearest;
+}
+
 double distance(const Point& point, const SoilCase& soil) {
   return bg::distance(boost_point(point), boost_polygon(soil));
 }
 
-double slit_length(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width) {
+Slit find_slit(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width) {
   std::vector<BoostPolygon> polygons;
   for (const SoilCase& soil : soils) polygons.push_back(boost_polygon(soil));
-  double found = 0;
+  Slit found;
   const auto look_along = [&](const auto& ring) {
-    for (std::size_t k = 0; k + 1 < ring.size(); ++k)
-      found += length_at_a_slit(point(ring[k]), point(ring[k + 1]), polygons[j], polygons, width);
+    for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+      const Slit here = slit_along(point(ring[k]), point(ring[k + 1]), polygons[j], polygons, width);
+      if (found.length == 0) found.place = here.place;
+      found.length += here.length;
+    }
   };
   look_along(polygons[i].outer());
   for (const auto& hole : polygons[i].inners()) look_along(hole);

@@ -15,15 +15,25 @@ std::string outline_fault(const Polygon& outline);
 /// if nothing.
 std::string holes_fault(const SoilCase& soil);
 
-double area(const SoilCase& soil);                          ///< without its holes [m2]
-double thickness(const Polygon& outline);                   ///< least width of its convex hull [m]
-double overlap(const SoilCase& a, const SoilCase& b);       ///< common area [m2]
-double distance(const SoilCase& a, const SoilCase& b);      ///< 0 if they touch or overlap [m]
+double area(const SoilCase& soil);         ///< without its holes [m2]
+double thickness(const Polygon& outline);  ///< least width of its convex hull [m]
+/// What two soils have in common.
+struct Overlap {
+  double area = 0;                                  ///< [m2]
+  Point low = Point::Zero(), high = Point::Zero();  ///< corners of the box around it [m]
+};
+Overlap overlap(const SoilCase& a, const SoilCase& b);
+double distance(const SoilCase& a, const SoilCase& b);  ///< 0 if they touch or overlap [m]
+std::pair<Point, Point> nearest_points(const SoilCase& a, const SoilCase& b);  ///< of two that are apart [m]
 double distance(const Point& point, const SoilCase& soil);  ///< 0 inside and on the outline [m]
 
-/// Length along which soils i and j face each other across less than `width` with no soil between [m]: of
-/// cracks and pointed slits; 0 where they touch without one.
-double slit_length(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width);
+/// Where soils i and j face each other across less than `width` [m] with no soil between: cracks and pointed
+/// slits.
+struct Slit {
+  double length = 0;            ///< 0 where they touch without one [m]
+  Point place = Point::Zero();  ///< a point in it [m]
+};
+Slit find_slit(const std::vector<SoilCase>& soils, std::size_t i, std::size_t j, double width);
 
 /// Where two straight segments cross or touch; nothing if they do not or lie in one line.
 std::vector<Point> crossings(const Point& a, const Point& b, const Point& c, const Point& d);

@@ -63,20 +63,31 @@ Vectors volume_load(double unit_weight, const TriangleWater& water, const Corner
   return load;
 }
 
-/// oint p_w n . v over one edge; Gauss-Legendre with three points is exact for degree 5.
-Vectors outline_load(const TriangleWater& water, const Corners& c, int edge) {
+/// oint p_w n . v over one edge, in `pieces` where p_w has a kink in it; Gauss-Legendre with three points is
+/// exact for degree 5.
+template <class Water>
+Vectors outline_load(const Water& water, const Corners& c, int edge, int pieces = 1) {
   const Point &from = c[edge], &to = c[(edge + 1) % 3];
   const Point normal_times_length(to.y() - from.y(), from.x() - to.x());
   Vectors load = Vectors::Zero();
-  for (const double s : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}) {
-    const double weight = s == 0 ? 4.0 / 9 : 5.0 / 18, part = (1 + s) / 2;
-    p4::Barycentric at = p4::Barycentric::Zero();
-    at[edge] = 1 - part;
-    at[(edge + 1) % 3] = part;
-    const double pressure = water.pore_pressure(from.y() + part * (to.y() - from.y()));
-    load += weight * pressure * normal_times_length * p4::values(at).transpose();
-  }
+  for (int piece = 0; piece < pieces; ++piece)
+    for (const double s : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}) {
+      const double weight = (s == 0 ? 4.0 / 9 : 5.0 / 18) / pieces, part = (piece + (1 + s) / 2) / pieces;
+      p4::Barycentric at = p4::Barycentric::Zero();
+      at[edge] = 1 - part;
+      at[(edge + 1) % 3] = part;
+      const double pressure = water.pore_pressure(from.y() + part * (to.y() - from.y()));
+      load += weight * pressure * normal_times_length * p4::values(at).transpose();
+    }
   return load;
+}
+
+/// Of the water that stands beside the soil, where a stretch ends there, or else of that in the triangle.
+Vectors outline_load(const Case& scene, const TriangleWater& water, const Corners& c, int edge) {
+  constexpr int pieces = 16;  // the level may cross the edge
+  const WaterBeside beside = water_beside(scene.water, c[edge], c[(edge + 1) % 3], (c[0] + c[1] + c[2]) / 3,
+                                          1e-3 * scene.particles.spacing);
+  return beside.stretch != nullptr ? outline_load(beside, c, edge, pieces) : outline_load(water, c, edge);
 }
 
 Corners corners(const Mesh& mesh, int triangle) {
@@ -141,7 +152,8 @@ LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
              freedoms, system.load);
   }
   for (const auto& [t, edge] : p4mesh.outline)
-    add_load(outline_load(water[t], corners(mesh, t), edge), p4mesh.triangles[t], freedoms, system.load);
+    add_load(outline_load(scene, water[t], corners(mesh, t), edge), p4mesh.triangles[t], freedoms,
+             system.load);
   system.stiffness.setFromTriplets(lower.begin(), lower.end());
   return system;
 }

@@ -5,7 +5,18 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "solver/model/water.hpp"
+
 namespace porosph {
+
+WaterBeside water_beside(const WaterCase& water, const Point& from, const Point& to, const Point& middle,
+                         double beside) {
+  const double outward = (to.y() - from.y()) / (to - from).norm();
+  const int outside = stretch_at(water.stretches, (from.x() + to.x()) / 2 + beside * outward);
+  const int inside = stretch_at(water.stretches, middle.x());
+  if (outside < 0 || outside == inside) return {};
+  return {&water.stretches[outside], water.unit_weight};
+}
 
 std::vector<TriangleWater> water_of_triangles(const WaterCase& water, const Mesh& mesh) {
   const double tiny = 1e-8 * extent(mesh.vertices);

@@ -71,10 +71,14 @@ Pieces cut_cells(const Cells& cells, const Region& region, double spacing, std::
   return pieces;
 }
 
+Cells cells_of(const Case& scene, const std::vector<Region>& regions, FreeSurfaces free_surfaces) {
+  return {bands_along(0, scene, regions, free_surfaces), bands_along(1, scene, regions, free_surfaces)};
+}
+
 }  // namespace
 
 std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions) {
-  const Cells cells{bands_along(0, scene, regions), bands_along(1, scene, regions)};
+  const Cells cells = cells_of(scene, regions, FreeSurfaces::in_the_middle);
   std::vector<CellSite> sites;
   std::vector<char> at_middle;
   for (std::size_t soil = 0; soil < regions.size(); ++soil)
@@ -87,6 +91,22 @@ std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Regio
         if (std::abs(site.area - whole) < round_off * whole) site.area = whole;  // all alike, to the last bit
         site.fill = site.area / whole;
       }
+      sites.push_back({piece.cell, site});
+    }
+  return sites;
+}
+
+std::vector<CellSite> arrange_stretched(const Case& scene, const std::vector<Region>& regions) {
+  const Cells cells = cells_of(scene, regions, FreeSurfaces::at_ends);
+  std::vector<CellSite> sites;
+  std::vector<char> at_middle;
+  for (std::size_t soil = 0; soil < regions.size(); ++soil)
+    for (const Piece& piece :
+         join_slivers(cut_cells(cells, regions[soil], scene.particles.spacing, at_middle))) {
+      Site site{piece.centroid, piece.area, static_cast<int>(soil)};
+      const double whole = cells.area(piece.cell);
+      if (std::abs(site.area - whole) < round_off * whole)
+        site.area = whole, site.position = cells.middle(piece.cell);
       sites.push_back({piece.cell, site});
     }
   return sites;

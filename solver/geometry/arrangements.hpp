@@ -14,11 +14,11 @@ struct CellSite {
   Site site;
 };
 
-/// Whole cells, those whose centre is inside or on the outline. The first soil takes a centre on a common
-/// border.
+/// Cells whose centre is inside or on the outline. The first soil takes a centre on a common border. All of a
+/// soil's have the same area, spacing^2 where the lattice fits the outline: together they carry the soil's.
 std::vector<CellSite> arrange_lattice(const Grid& grid, const std::vector<Region>& regions);
 
-/// Cells cut by the outline; slivers of less than 0.35 spacing^2 are joined with the neighbour of the same
+/// Cells cut by the outline; slivers of less than 0.45 spacing^2 are joined with the neighbour of the same
 /// soil that they share the longest edge with. Area and centroid are those of what results, so that each
 /// soil's area and first moments are kept. Walls and slits thinner than a cell do not part a particle in two.
 std::vector<CellSite> arrange_fitted(const Grid& grid, const std::vector<Region>& regions);
@@ -33,5 +33,10 @@ std::vector<CellSite> arrange_disordered(const Grid& grid, const std::vector<Reg
 /// soil. Where slopes cut the cells, sites and areas are those of the pieces, as with arrange_fitted. The
 /// cell of a site counts over these rows and columns.
 std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions);
+
+/// Cells with their ends at walls, borders of soils and free surfaces, as far as these lie along the axes:
+/// whole cells there, cut where slopes cross them, as with arrange_fitted. The cell of a site counts over
+/// these rows and columns.
+std::vector<CellSite> arrange_stretched(const Case& scene, const std::vector<Region>& regions);
 
 }  // namespace porosph

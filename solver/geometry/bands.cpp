@@ -3,41 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/case/outline_edges.hpp"
+
 namespace porosph {
 namespace {
 
-struct Edge {
-  Point a, b;
-  std::size_t soil = 0;
-};
-
-std::vector<Edge> edges_of(const std::vector<Region>& regions) {
-  std::vector<Edge> edges;
-  for (std::size_t soil = 0; soil < regions.size(); ++soil)
-    for (const Polygon& ring : regions[soil].rings())
-      for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-        edges.push_back({ring[j], ring[i], soil});
-  return edges;
-}
-
-/// Whether the segment from c to d covers part of the edge.
-bool covers(const Point& c, const Point& d, const Edge& edge, double tolerance) {
-  const Point line = edge.b - edge.a;
-  const double length = line.norm();
-  const Point along = line / length, across(-along.y(), along.x());
-  if (std::abs(across.dot(c - edge.a)) > tolerance || std::abs(across.dot(d - edge.a)) > tolerance)
-    return false;
-  const auto [from, to] = std::minmax({along.dot(c - edge.a), along.dot(d - edge.a)});
-  return std::min(to, length) - std::max(from, 0.0) > tolerance;
-}
-
-bool is_free(const Edge& edge, const std::vector<Edge>& edges, const Case& scene, double tolerance) {
-  return std::ranges::none_of(
-             scene.boundaries,
-             [&](const BoundaryCase& wall) { return covers(wall.from, wall.to, edge, tolerance); }) &&
-         std::ranges::none_of(edges, [&](const Edge& other) {
-           return other.soil != edge.soil && covers(other.a, other.b, edge, tolerance);
-         });
+std::vector<OutlineEdge> edges_of(const std::vector<Region>& regions) {
+  std::vector<std::vector<Polygon>> rings;
+  for (const Region& region : regions) rings.push_back(region.rings());
+  return outline_edges(rings);
 }
 
 /// A coordinate that bands keep to.
@@ -60,17 +34,21 @@ void add(Line line, double tolerance, std::vector<Line>& lines) {
   lines.push_back(line);
 }
 
-std::vector<Line> lines_along(int axis, const Case& scene, const std::vector<Edge>& edges) {
+std::vector<Line> lines_along(int axis, const Case& scene, const std::vector<OutlineEdge>& edges,
+                              FreeSurfaces free_surfaces) {
+  const auto is_middle = [&](const OutlineEdge& e, double tolerance) {
+    return free_surfaces == FreeSurfaces::in_the_middle && is_free(e, edges, scene.boundaries, tolerance);
+  };
   const double spacing = scene.particles.spacing, tolerance = 1e-6 * spacing;
   std::vector<Line> lines;
   std::vector<double> ends;  // of free surfaces along the other axis
   double low = never, high = -never;
-  for (const Edge& e : edges) {
+  for (const OutlineEdge& e : edges) {
     low = std::min(low, e.a[axis]), high = std::max(high, e.a[axis]);
     const bool along = std::abs(e.a[axis] - e.b[axis]) <= tolerance,
                across = std::abs(e.a[1 - axis] - e.b[1 - axis]) <= tolerance;
-    if (along) add({e.a[axis], is_free(e, edges, scene, tolerance)}, tolerance, lines);
-    if (across && is_free(e, edges, scene, tolerance)) ends.insert(ends.end(), {e.a[axis], e.b[axis]});
+    if (along) add({e.a[axis], is_middle(e, tolerance)}, tolerance, lines);
+    if (across && is_middle(e, tolerance)) ends.insert(ends.end(), {e.a[axis], e.b[axis]});
   }
   for (double at : {low, high})  // the tip of a wedge
     if (!is_near(lines, at, spacing / 2)) lines.push_back({at, false});
@@ -89,8 +67,9 @@ int half_bands(const Line& from, const Line& to, double spacing) {
 
 }  // namespace
 
-std::vector<Band> bands_along(int axis, const Case& scene, const std::vector<Region>& regions) {
-  const std::vector<Line> lines = lines_along(axis, scene, edges_of(regions));
+std::vector<Band> bands_along(int axis, const Case& scene, const std::vector<Region>& regions,
+                              FreeSurfaces free_surfaces) {
+  const std::vector<Line> lines = lines_along(axis, scene, edges_of(regions), free_surfaces);
   std::vector<Band> bands;
   double half_before = 0;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {

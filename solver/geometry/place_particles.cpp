@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "solver/case/outline_edges.hpp"
 #include "solver/geometry/arrangements.hpp"
 
 namespace porosph {
@@ -45,15 +46,20 @@ void check_filled(const Case& scene, const std::vector<CellSite>& sites) {
 
 std::vector<CellSite> arrange(const Case& scene, const std::vector<Region>& regions) {
   const ParticlesCase& particles = scene.particles;
-  if (particles.arrangement == Arrangement::surface) return arrange_surface(scene, regions);
+  const Arrangement chosen =
+      particles.arrangement == Arrangement::automatic ? arrangement_for(scene) : particles.arrangement;
   const Grid grid = cover(regions, particles.spacing);
-  switch (particles.arrangement) {
+  switch (chosen) {
     case Arrangement::fitted:
       return arrange_fitted(grid, regions);
     case Arrangement::disordered:
       return arrange_disordered(grid, regions, particles.disorder, particles.seed);
-    case Arrangement::lattice:
     case Arrangement::surface:
+      return arrange_surface(scene, regions);
+    case Arrangement::stretched:
+      return arrange_stretched(scene, regions);
+    case Arrangement::automatic:
+    case Arrangement::lattice:
       break;
   }
   return arrange_lattice(grid, regions);

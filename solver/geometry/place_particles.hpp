@@ -19,8 +19,8 @@ struct Site {
 /// the same sites on every machine. The order is that of the lattice cells the particles belong to, row by
 /// row: by y, then by x (exactly so with Arrangement::lattice, nearly so with the others).
 ///
-/// Lattice: cell centres inside or on the outline, spacing^2 each; a centre on the border between two soils
-/// goes to the first. Fitted and disordered: areas sum up to the area of each soil.
+/// Areas sum up to the area of each soil, whatever the arrangement. Lattice: cell centres inside or on the
+/// outline; a centre on the border between two soils goes to the first.
 ///
 /// Throws std::runtime_error, naming the soil, if a polygon is not simple, if soils overlap, or if a soil is
 /// so thin that no particle falls into it.

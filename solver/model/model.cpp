@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/case/local_origin.hpp"
+#include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
 #include "solver/model/initial_velocity.hpp"
 
@@ -55,8 +57,10 @@ void add_k0_stress(const Case& scene, Particles& particles) {
 
 }  // namespace
 
-Model build_model(const Case& scene) {
+Model build_model(const Case& case_as_drawn) {
   Model model;
+  model.origin = local_origin(case_as_drawn);
+  const Case scene = moved(case_as_drawn, -model.origin);
   model.spacing = scene.particles.spacing;
   model.smoothing_length = scene.smoothing_length();
   model.water = Water(scene.water);
@@ -73,6 +77,8 @@ Model build_model(const Case& scene) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
+  model.water_faces = water_faces(scene, model.particles, 2 * model.smoothing_length);
+  model.usual_cause = usual_cause_of_breakdown(scene);
   return model;
 }
 

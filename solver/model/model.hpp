@@ -1,9 +1,11 @@
 // A case made ready to compute: particles, soils, water and walls.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "solver/boundary/wall.hpp"
+#include "solver/boundary/water_face.hpp"
 #include "solver/case/case.hpp"
 #include "solver/model/water.hpp"
 #include "solver/particles/particles.hpp"
@@ -15,16 +17,20 @@ struct Model {
   Particles particles;
   std::vector<Soil> soils;
   Water water;
+  std::vector<WaterFace> water_faces;  ///< where water presses on a free surface that it does not enter
   std::vector<Wall> walls;
-  double spacing = 0;           ///< dx [m]
-  double smoothing_length = 0;  ///< h [m]
-  Vec2 gravity = Vec2::Zero();  ///< [m/s2]
-  double wave_speed = 0;        ///< fastest c_p = sqrt(M / rho) of all soils, water not moving along [m/s]
+  double spacing = 0;            ///< dx [m]
+  double smoothing_length = 0;   ///< h [m]
+  Vec2 gravity = Vec2::Zero();   ///< [m/s2]
+  double wave_speed = 0;         ///< fastest c_p = sqrt(M / rho) of all soils, water not moving along [m/s]
+  Point origin = Point::Zero();  ///< what all positions here are relative to, in the case's coordinates [m]
+  std::string usual_cause;       ///< what a breakdown of this case most likely comes from
 };
 
-/// Places the particles and gives them mass, initial stress (zero or K0) and pore pressure.
+/// Places the particles and gives them mass, initial stress (zero or K0) and pore pressure. Far from the
+/// case's origin, positions are relative to local_origin().
 /// Throws std::runtime_error where a soil holds no particle or a boundary touches none.
-Model build_model(const Case& scene);
+Model build_model(const Case& case_as_drawn);
 
 /// K0 stress of a particle: the weight of the soil and water above it, along a vertical line (effective)
 /// [Pa].

@@ -26,6 +26,13 @@ inline WaterCase at_rest_from(WaterCase water, double time) {
   return water;
 }
 
+/// The stretch over x, the first if two meet there; -1 where there is none.
+inline int stretch_at(const std::vector<WaterStretch>& stretches, double x) {
+  const auto over = [x](const WaterStretch& s) { return x >= s.x_from && x <= s.x_to; };
+  const auto found = std::find_if(stretches.begin(), stretches.end(), over);
+  return found == stretches.end() ? -1 : static_cast<int>(found - stretches.begin());
+}
+
 /// Hydrostatic water, level per stretch of x.
 class Water {
  public:
@@ -45,6 +52,13 @@ class Water {
     for (const WaterStretch& s : stretches_)
       if (x >= s.x_from && x <= s.x_to) return s.level - y;
     return -never;
+  }
+
+  /// The stretch over x, -1 where there is none.
+  int stretch_at(double x) const { return porosph::stretch_at(stretches_, x); }
+  /// p_w at a height y under a stretch, 0 above its level and without one [Pa].
+  double pore_pressure_under(int stretch, double y) const {
+    return stretch < 0 ? 0 : -water_.unit_weight * std::max(0.0, stretches_[stretch].level - y);
   }
 
   /// p_w, negative in compression, zero above the level (eq. 12) [Pa].

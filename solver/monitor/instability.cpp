@@ -13,12 +13,22 @@
 namespace porosph {
 namespace {
 
-std::string name_of(const Particles& p, std::size_t i) {
-  return fmt::format("particle {} (from x = {:.4g} m, y = {:.4g} m)", p.id[i], p.start[i].x(),
-                     p.start[i].y());
+/// As many digits as tell particles apart, however far from the origin [m].
+std::string metres(const Model& model, double x) {
+  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(model.spacing)))) + 2;
+  return fmt::format("{:.{}f}", x, decimals);
 }
 
-std::string place(const Vec2& x) { return fmt::format("({:.4g}, {:.4g}) m", x.x(), x.y()); }
+std::string place(const Model& model, const Vec2& position) {
+  const Vec2 x = position + model.origin;
+  return fmt::format("({}, {}) m", metres(model, x.x()), metres(model, x.y()));
+}
+
+std::string name_of(const Model& model, std::size_t i) {
+  const Vec2 start = model.particles.start[i] + model.origin;
+  return fmt::format("particle {} (from x = {} m, y = {} m)", model.particles.id[i], metres(model, start.x()),
+                     metres(model, start.y()));
+}
 
 bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); }
 
@@ -35,24 +45,19 @@ std::optional<Breakdown> find_runaway(const Model& model, double time) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!p.velocity[i].allFinite() || !p.position[i].allFinite() || !finite(p.stress[i]) ||
         !std::isfinite(p.density[i]))
-      return Breakdown{Cause::not_finite, time,
-                       fmt::format("at {:.6g} s {} is no longer finite; the usual cause is a time step that "
-                                   "is too large (time.courant)",
-                                   time, name_of(p, i))};
+      return Breakdown{
+          Cause::not_finite, time,
+          fmt::format("at {:.6g} s {} is no longer finite; {}", time, name_of(model, i), model.usual_cause)};
     if (!(p.density[i] > 0))
       return Breakdown{Cause::inverted, time,
                        fmt::format("at {:.6g} s the soil around {} is turned inside out (its volume is not "
-                                   "positive), at {}; the usual causes are a load that is too large for "
-                                   "the soil's stiffness (youngs_modulus) and a time step that is too "
-                                   "large (time.courant)",
-                                   time, name_of(p, i), place(p.position[i]))};
+                                   "positive), at {}; {}",
+                                   time, name_of(model, i), place(model, p.position[i]), model.usual_cause)};
     if (p.velocity[i].norm() > model.wave_speed)
       return Breakdown{
           Cause::too_fast, time,
-          fmt::format("at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); "
-                      "the usual cause is a time step that is too large (time.courant), or soil that pulls "
-                      "itself apart",
-                      time, name_of(p, i), p.velocity[i].norm(), model.wave_speed)};
+          fmt::format("at {:.6g} s {} moves at {:.4g} m/s, faster than the compression wave ({:.4g} m/s); {}",
+                      time, name_of(model, i), p.velocity[i].norm(), model.wave_speed, model.usual_cause)};
   }
   return std::nullopt;
 }
@@ -92,13 +97,10 @@ std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies
   const std::int32_t thrown = order[bodies_at_start];
   const auto first = static_cast<std::size_t>(std::find(bodies.body.begin(), bodies.body.end(), thrown) -
                                               bodies.body.begin());
-  return Breakdown{
-      Cause::separated, time,
-      fmt::format(
-          "at {:.6g} s {} and {} more have left the soil body, at {}; the usual causes are, with water "
-          "above the ground, the conventional formulation (formulation.motion), else a time step that "
-          "is too large (time.courant)",
-          time, name_of(p, first), size[thrown] - 1, place(p.position[first]))};
+  return Breakdown{Cause::separated, time,
+                   fmt::format("at {:.6g} s {} and {} more have left the soil body, at {}; {}", time,
+                               name_of(model, first), size[thrown] - 1, place(model, p.position[first]),
+                               model.usual_cause)};
 }
 
 double closest_distance(std::span<const Vec2> positions, double radius) {
@@ -117,10 +119,8 @@ std::optional<Breakdown> find_crossing(const Model& model, double allowed, doubl
       return Breakdown{
           Cause::inverted, time,
           fmt::format("at {:.6g} s {} and particle {} met at {}: the soil between them is turned "
-                      "inside out; the usual causes are a load that is too large for the soil's "
-                      "stiffness (youngs_modulus) and a time step that is too large "
-                      "(time.courant)",
-                      time, name_of(p, a), p.id[b], place(p.position[a]))};
+                      "inside out; {}",
+                      time, name_of(model, a), p.id[b], place(model, p.position[a]), model.usual_cause)};
   return std::nullopt;
 }
 
@@ -134,10 +134,9 @@ Breakdown energy_gain(const Model& model, std::span<const Vec2> velocities, doub
   }
   return {Cause::energy_gain, time,
           fmt::format("at {:.6g} s {:.0f} % of the energy in motion and strain came from nowhere, most of it "
-                      "at {}, now at {}; the usual causes are a time step that is too large (time.courant) "
-                      "and a form of the paper without viscosity or damping "
-                      "(formulation.artificial_viscosity_alpha, loading.damping)",
-                      time, 100 * gained, name_of(p, most), place(p.position[most]))};
+                      "at {}, now at {}; {}",
+                      time, 100 * gained, name_of(model, most), place(model, p.position[most]),
+                      model.usual_cause)};
 }
 
 }  // namespace porosph

@@ -27,7 +27,7 @@ std::string_view cause_name(Cause cause);
 struct Breakdown {
   Cause cause = Cause::not_finite;
   double time = 0;      ///< when it was found [s]
-  std::string message;  ///< for people: when, which particle, where, and the usual reason
+  std::string message;  ///< for people: when, which particle, where, and Model::usual_cause
 };
 
 /// The first particle that is not finite, has no volume left or moves faster than the fastest wave.

@@ -68,7 +68,8 @@ class Closing {
   void hold_the_inside() {
     std::vector<std::uint8_t> surface(points_);
 #pragma omp parallel for schedule(static)
-    for (std::size_t a = 0; a < particles_; ++a) surface[a] = at_surface(static_cast<std::int32_t>(a));
+    for (std::size_t a = 0; a < particles_; ++a)
+      surface[a] = g_.fill[a] < 1 || at_surface(static_cast<std::int32_t>(a));
     g_.ghosts.fill<Mirrors::scalar>(surface);
     held_.resize(particles_);
 #pragma omp parallel for schedule(static)

@@ -12,7 +12,8 @@ namespace porosph {
 /// A configuration's corrected gradients, sum_b (f_b - f_a) L_a G_ab with the stencils' G_ab = w_ab x_ab.
 struct CorrectedGradients {
   const PairStencils& stencils;      ///< of the particles
-  std::span<const double> volumes;   ///< of particles and ghosts [m2]
+  std::span<const double> volumes;   ///< of the cells of particles and ghosts [m2]
+  std::span<const double> fill;      ///< of the particles: part of the cell that is soil
   std::span<const Mat2> correction;  ///< L of the particles
   const Ghosts& ghosts;
   double spacing;  ///< [m]

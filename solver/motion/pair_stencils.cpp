@@ -9,6 +9,10 @@
 namespace porosph {
 namespace {
 
+/// With h = dx neighbours lie at the rim of the support, where the kernel's slope is zero. Left out, so that
+/// round-off does not give some particles more of them than others, which would share no stencil.
+constexpr double inside = 1 - 1e-9;
+
 class Builder {
  public:
   Builder(std::span<const Vec2> points, std::size_t count, std::span<const double> volumes,
@@ -18,7 +22,7 @@ class Builder {
         kernel_(kernel),
         single_(single),
         count_(static_cast<std::int32_t>(count)),
-        list_(find_neighbours(points, count, kernel.support())) {
+        list_(find_neighbours(points, count, inside * kernel.support())) {
     double largest = 0;
     for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     rounding_ = 16 * std::numeric_limits<double>::epsilon() * largest;

@@ -41,9 +41,9 @@ Mirrored mirrored(const Model& model, Motion motion) {
   return all;
 }
 
-std::int32_t boundary_of(const Case& scene, const Wall& wall) {
+std::int32_t boundary_of(const Case& scene, const Point& origin, const Wall& wall) {
   const auto found = std::ranges::find_if(scene.boundaries, [&](const BoundaryCase& b) {
-    return b.kind == wall.kind && b.from == wall.from && b.to == wall.to;
+    return b.kind == wall.kind && b.from - origin == wall.from && b.to - origin == wall.to;
   });
   return static_cast<std::int32_t>(found - scene.boundaries.begin());
 }
@@ -58,9 +58,10 @@ Frame make_boundary_frame(const Simulation& simulation) {
   frame.time = simulation.time();
   std::vector<std::int32_t> boundary, fixed;
   for (std::size_t i = 0; i < all.points.size(); ++i) {
-    frame.points.insert(frame.points.end(), {all.points[i].x(), all.points[i].y(), 0.0});
+    frame.points.insert(frame.points.end(),
+                        {all.points[i].x() + model.origin.x(), all.points[i].y() + model.origin.y(), 0.0});
     const Wall& wall = model.walls[all.wall[i]];
-    boundary.push_back(boundary_of(simulation.scene(), wall));
+    boundary.push_back(boundary_of(simulation.scene(), model.origin, wall));
     fixed.push_back(wall.kind == BoundaryKind::fixed);
   }
   frame.fields = {{"BoundaryId", {}, boundary}, {"Fixed", {}, fixed}, {"ParticleId", {}, all.particle}};

@@ -148,7 +148,9 @@ Frame make_frame(Simulation& simulation, const std::vector<std::string>& names) 
   Frame frame;
   frame.step = simulation.step();
   frame.time = simulation.time();
-  frame.points = vectors(particles(simulation), [&](auto i) { return particles(simulation).position[i]; });
+  const Model& model = simulation.model();
+  frame.points =
+      vectors(model.particles, [&](auto i) { return Vec2(model.particles.position[i] + model.origin); });
   for (const std::string& name : names) frame.fields.push_back(read(simulation, name));
   return frame;
 }

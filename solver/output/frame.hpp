@@ -63,6 +63,7 @@ struct Summary {
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
   std::optional<FemCheck> finite_elements;  ///< what the run is held against by itself
+  std::vector<std::string> warnings;           ///< that the run began with
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/kernel/linear_weights.hpp"
 #include "solver/model/model.hpp"
 
 namespace porosph {
@@ -43,10 +44,5 @@ class Probe {
   std::vector<std::int32_t> particles_;
   std::vector<double> weights_;
 };
-
-/// Weights of the particles `near` that reproduce linear fields at `here`; the plain kernel mean where they
-/// do not span the plane.
-std::vector<double> linear_weights(const Vec2& here, const std::vector<Vec2>& near,
-                                   const std::vector<double>& volumes, double smoothing_length);
 
 }  // namespace porosph

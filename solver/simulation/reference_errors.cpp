@@ -71,7 +71,8 @@ std::vector<Stress> reference_stress(const Simulation& simulation) {
   const FiniteStrainColumn exact = exact_column(scene, column);
   std::vector<Stress> stress;
   for (const Vec2& start : simulation.model().particles.start) {
-    const double height = start.y() - bottom, lateral = exact.lateral_stress(height);
+    const double height = start.y() + simulation.model().origin.y() - bottom,
+                 lateral = exact.lateral_stress(height);
     stress.push_back({lateral, exact.vertical_stress(height), lateral, 0});
   }
   return stress;
@@ -83,7 +84,9 @@ std::map<std::string, ErrorNorms> reference_errors(const Simulation& simulation)
   const auto [column, bottom] = reference_column(scene);
   const FiniteStrainColumn exact = exact_column(scene, column);
   const Particles& p = simulation.model().particles;
-  const auto height = [&p, low = bottom](std::size_t i) { return p.start[i].y() - low; };
+  const auto height = [&p, low = bottom - simulation.model().origin.y()](std::size_t i) {
+    return p.start[i].y() - low;
+  };
   const auto lateral = [&](std::size_t i) { return exact.lateral_stress(height(i)); };
   return {
       {"EffectiveStress_XX", norms(

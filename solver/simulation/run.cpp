@@ -49,16 +49,17 @@ double energy_growth(const Simulation::Energy& now, const RunProgress& progress)
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
-/// level that moves: there energy tells nothing.
-bool keeps_energy(const Case& scene) {
-  return scene.water.level_over_time.empty() &&
+/// level that moves or presses on a face: there energy tells nothing.
+bool keeps_energy(const Simulation& s) {
+  const Case& scene = s.scene();
+  return scene.water.level_over_time.empty() && s.model().water_faces.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 
 /// Breakdown that does not show in a single step.
 class Guard {
  public:
-  explicit Guard(const Simulation& s) : watches_energy_(keeps_energy(s.scene())) {}
+  explicit Guard(const Simulation& s) : watches_energy_(keeps_energy(s)) {}
 
   void look(Simulation& s, RunProgress& progress) const {
     if (s.instability() || s.step() % steps_between_energy_checks != 0) return;

@@ -95,6 +95,7 @@ std::span<const Vec2> Simulation::accelerations() {
   if (!accelerations_valid_) {
     dynamics_->prepare();
     dynamics_->accelerations(accelerations_);
+    add_water_pressure(model_.water_faces, model_.water, model_.particles, accelerations_);
     accelerations_valid_ = true;
   }
   return accelerations_;

@@ -82,7 +82,22 @@ OF_THE_GROUND = [
     ("sides that hold, and no bottom", '"fixed"\nfrom = [0, 0]\nto = [4, 0]', '"roller"\nfrom = [0, 0]\nto = [0, 2]'),
     ("a boundary that touches nothing", "to = [4, 0]", "to = [4, -1]"),
     ("a boundary inside the soil", "from = [0, 0]\nto = [4, 0]", "from = [0, 1]\nto = [4, 1]"),
+    ("water that touches no soil", "[time]", "[[water.stretches]]\nx_to = -1\nlevel = 1\n[time]"),
     ("a probe outside", "position = [2, 1]", "position = [2, 3]"),
+]
+# What is allowed but can hardly be meant, likewise: warnings, with which the case is computed.
+WARNED_OF = [
+    ("unit weight in kN/m3", "unit_weight_saturated = 20e3", "unit_weight_saturated = 20"),
+    ("density in place of unit weight", "unit_weight_saturated = 20e3", "unit_weight_saturated = 2000"),
+    ("Young's modulus in kPa", "youngs_modulus = 1e6", "youngs_modulus = 1e3"),
+    ("soil that settles much", "youngs_modulus = 1e6", "youngs_modulus = 0.2e6"),
+    ("soil lighter than water", "unit_weight_saturated = 20e3\n",
+     "unit_weight_saturated = 9e3\n[water]\nlevel = 1\n"),
+    ("a layer of one row", "[[boundary]]", CLAY.replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]",
+                                                       "[[0, 2], [4, 2], [4, 2.6], [0, 2.6]]") + "[[boundary]]"),
+    ("a lattice that does not fit", "spacing = 0.5", "spacing = 0.7\narrangement = \"lattice\""),
+    ("water below all soil", "[time]", "[[water.stretches]]\nx_to = 2\nlevel = -1\n[time]"),
+    ("a time step that is too large", "end = 0.1", "end = 0.1\ncourant = 1.2"),
 ]
 # What is wrong, the command, and what is put into files beforehand.
 ON_THE_COMMAND_LINE = [
@@ -122,8 +137,8 @@ def say(place, program, arguments):
     return outcome.returncode, outcome.stderr.strip()
 
 
-def row(what, how, status, message):
-    if status not in (2, 4) or not message:
+def row(what, how, status, message, expected=(2, 4)):
+    if status not in expected or not message:
         sys.exit(f"{what}: exit status {status}, message {message!r}")
     lines = message.replace("|", "\\|").split("\n")
     return f"| {what} | {how} | {status} | {'<br>'.join(f'`{line}`' if '`' not in line else line for line in lines)} |\n"
@@ -133,14 +148,14 @@ def table(title, rows):
     return f"\n## {title}\n\n| What is wrong | Try | Exit | What is said |\n|---|---|---|---|\n" + "".join(rows)
 
 
-def in_a_case(place, program, mistakes):
+def in_a_case(place, program, mistakes, expected=(2, 4)):
     rows = []
     for what, old, new in mistakes:
         if CASE.count(old) != 1:
             sys.exit(f"{what}: {old!r} does not stand once in the case")
         (place / "box.toml").write_text(CASE.replace(old, new))
         how = f"`{old}` becomes `{new}`" if new and "\n" not in old + new and len(old + new) < 50 else ""
-        rows.append(row(what, how, *say(place, program, "check box.toml")))
+        rows.append(row(what, how, *say(place, program, "check box.toml"), expected))
     return rows
 
 
@@ -166,6 +181,7 @@ def main():
     page = HEAD + "".join(f"    {line}\n" for line in CASE.splitlines())
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
     page += table("Of the ground", in_a_case(place, program, OF_THE_GROUND))
+    page += table("Warnings of the case", in_a_case(place, program, WARNED_OF, expected=(0,)))
     page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))
     page += table("With files", by_command(place, program, WITH_FILES))
     shutil.rmtree(place)

@@ -61,6 +61,7 @@ inline const char* const small_case = R"(title = "Small <column> & \"water\""
 reference = "column"
 [particles]
 spacing = 0.5
+arrangement = "lattice"
 [[soil]]
 name = "sand"
 polygon = [[0, 0], [2, 0], [2, 4], [0, 4]]

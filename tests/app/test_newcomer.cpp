@@ -46,7 +46,7 @@ TEST_CASE("init writes a case that runs as it is") {
   CHECK_THAT(place.porosph("init").out, Contains("my_slope.toml") && Contains("porosph run my_slope.toml"));
   CHECK_THAT(
       text_of(place.folder() / "my_slope.toml"),
-      Contains("# Distance of neighbouring particles, dx. [m]") && Contains("\n#smoothing_ratio = 1.2\n"));
+      Contains("# Distance of neighbouring particles, dx. [m]") && Contains("\n#smoothing_ratio = 1\n"));
   const Outcome again = place.porosph("init");
   CHECK(again.status == 2);
   CHECK_THAT(again.err, Contains("--force"));

@@ -103,6 +103,7 @@ Json to_json(const Summary& summary) {
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
+  json["warnings"] = summary.warnings;
   json["skipped"] = summary.skipped;
   return json;
 }
@@ -127,6 +128,17 @@ class Object {
     const auto& value = at(key);
     if (!value.is_string()) fail(key, "must be a string", value);
     return value.get<std::string>();
+  }
+
+  std::vector<std::string> texts(const std::string& key) const {
+    const auto& value = at(key);
+    std::vector<std::string> result;
+    if (!value.is_array()) fail(key, "must be a list of strings", value);
+    for (const auto& item : value) {
+      if (!item.is_string()) fail(key, "must be a list of strings", item);
+      result.push_back(item.get<std::string>());
+    }
+    return result;
   }
 
   bool truth(const std::string& key) const {
@@ -240,6 +252,7 @@ Summary summary_from(const Object& json) {
     }
   }
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
+  if (json.has("warnings")) summary.warnings = json.texts("warnings");
   const auto skipped = json.object("skipped");
   for (const auto& name : skipped.keys()) summary.skipped[name] = skipped.text(name);
   return summary;

@@ -30,12 +30,11 @@ std::vector<Mat2> corrections(const ReferenceConfiguration& r, bool corrected) {
   return correction;
 }
 
-/// Closes the gradients where disorder asks for it, which changes L as well. Cells in part filled stay open.
+/// Closes the gradients where disorder asks for it, which changes L as well.
 void close(const Model& model, ReferenceConfiguration& r, std::vector<Mat2>& correction) {
-  const auto& fill = model.particles.fill;
-  if (std::any_of(fill.begin(), fill.end(), [](double f) { return f != 1; })) return;
   Closure closure = close_gradients({.stencils = r.stencils,
                                      .volumes = r.volume,
+                                     .fill = model.particles.fill,
                                      .correction = correction,
                                      .ghosts = r.ghosts,
                                      .spacing = model.spacing});

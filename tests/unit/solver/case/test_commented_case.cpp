@@ -13,8 +13,8 @@ TEST_CASE("a commented case is the case that it explains") {
   CHECK(write_case(parse_case(text, "commented.toml")) == write_case(plain));
   CHECK_THAT(
       text,
-      Contains("# Distance of neighbouring particles, dx. [m] Allowed: > 0 and <= 1e+06.\nspacing = 0.5\n"));
-  CHECK_THAT(text, Contains("\n#smoothing_ratio = 1.2\n") && Contains("\n[formulation]\n"));
+      Contains("# Distance of neighbouring particles, dx. [m] Allowed: > 0 and <= 1e+08.\nspacing = 0.5\n"));
+  CHECK_THAT(text, Contains("\n#smoothing_ratio = 1\n") && Contains("\n[formulation]\n"));
   CHECK_THAT(text, Contains("# When the run ends. [s]"));
   CHECK_THAT(text, !Contains("seed"));  // used with another arrangement only
 }

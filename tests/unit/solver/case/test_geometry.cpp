@@ -56,9 +56,9 @@ TEST_CASE("holes") {
 TEST_CASE("soils may touch, not overlap") {
   CHECK(errors_with(soil("clay", "[[4, 0], [6, 0], [6, 2], [4, 2]]")).empty());
   CHECK(errors_with(soil("clay", "[[3, 0], [6, 0], [6, 2], [3, 2]]")) ==
-        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' overlap by 2 m2");
+        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' overlap by 2 m2, between (3, 0) and (4, 2)");
   CHECK(errors_with(soil("clay", "[[1, 0.2], [3, 0.2], [3, 1], [1, 1]]")) ==
-        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' overlap by 1.6 m2");
+        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' overlap by 1.6 m2, between (1, 0.2) and (3, 1)");
   const std::string hole = "[[1, 0.2], [3, 0.2], [3, 1], [1, 1]]";
   CHECK(
       errors_of(with(sand_outline, sand_outline + "\nholes = [" + hole + "]") + soil("clay", hole)).empty());
@@ -66,9 +66,41 @@ TEST_CASE("soils may touch, not overlap") {
              Contains("box.toml:21:8: key 'soil[1].name' = \"sand\": is the name of soil[0] too"));
 }
 
+TEST_CASE("places in messages have digits enough for coordinates of maps") {
+  const std::string far = "[[4512344.25, 0], [4512348.25, 0], [4512348.25, 2], [4512344.25, 2]]";
+  std::string text = with(sand_outline, far);
+  text.replace(text.find("from = [0, 0]"), 13, "from = [4512344.25, 0]");
+  text.replace(text.find("to = [4, 0]"), 11, "to = [4512348.25, 0]");
+  CHECK(errors_of(text).empty());
+  CHECK_THAT(errors_of(text + soil("clay", "[[4512347.25, 0], [4512350, 0], [4512350, 2], [4512347.25, 2]]")),
+             Contains("overlap by 2 m2, between (4512347.25, 0) and (4512348.25, 2)"));
+  CHECK_THAT(errors_of(text + soil("clay", "[[4512348.5, 0], [4512350, 0], [4512350, 2], [4512348.5, 2]]")),
+             Contains("0.25 m apart at (4512348."));
+  CHECK_THAT(errors_of(text + boundary("[4512345.25, 0]", "[4512345.25, 2]")),
+             Contains("has soil on both sides at (4512345.25, 1)"));
+}
+
+TEST_CASE("water touches soil: over it or at an upright face below its level") {
+  const auto errors = [](const std::string& stretch) {
+    return errors_with("[[water.stretches]]\n" + stretch + "\nlevel = 1\n");
+  };
+  const std::string at = "box.toml:20:1: key 'water.stretches[0]': touches no soil: ";
+  CHECK(errors("x_to = 0").empty());
+  CHECK(errors("x_from = 4").empty());
+  CHECK(errors("x_from = 1\nx_to = 2").empty());
+  CHECK(errors("x_to = 0.05").empty());
+  CHECK(errors("x_to = -1") == at + "it ends 1 m beside soil 'sand', the nearest");
+  CHECK(errors("x_from = 4.01") == at + "it ends 0.01 m beside soil 'sand', the nearest");
+  CHECK(errors_of(with(sand_outline, "[[0, 0], [4, 0], [4, 2], [1, 2]]") +
+                  "[[water.stretches]]\nx_to = 0\nlevel = 1\n") ==
+        at + "where it ends soil 'sand' has no upright face below its level");
+  CHECK(errors_with("[[water.stretches]]\nx_to = 0\nlevel = -1\n") ==
+        at + "where it ends soil 'sand' has no upright face below its level");
+}
+
 TEST_CASE("the number of particles is bounded before memory is taken") {
   CHECK(errors_of(with("spacing = 0.5", "spacing = 1e-4")) ==
-        "box.toml:4:11: key 'particles.spacing' = 0.0001: makes 8e+08 particles, which need about 960 GB of "
+        "box.toml:4:11: key 'particles.spacing' = 0.0001: makes 8e+08 particles, which need about 576 GB of "
         "memory; at "
         "most 5e+07");
   CHECK_THAT(errors_of(with("spacing = 0.5", "spacing = 1e-200")), Contains("makes inf particles"));
@@ -134,7 +166,7 @@ TEST_CASE("soils keep clear of each other or touch") {
                        boundary("[5, 0]", "[9, 0]"));
   };
   CHECK(at_x("4.2") ==
-        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' are 0.2 m apart, less than "
+        "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' are 0.2 m apart at (4.2, 0), less than "
         "particles.spacing = 0.5 m: they must touch, or keep clear of each other");
   CHECK(at_x("4.00001").empty());
   CHECK(at_x("4.5").empty());
@@ -146,7 +178,7 @@ TEST_CASE("soils that touch at a point leave no slit that particles would bridge
   };
   CHECK(below("[[0, 2], [4, 2.4], [4, 5], [0, 5]]") ==
         "box.toml:22:11: key 'soil[1].polygon': soils 'sand' and 'clay' leave a slit between them that is "
-        "narrower than particles.spacing = 0.5 m over 4.02 m: close it or widen it");
+        "narrower than particles.spacing = 0.5 m over 4.02 m, at (3.901668369, 2.195081016): close it or widen it");
   CHECK_THAT(below("[[0, 2], [2, 2.1], [4, 2], [4, 5], [0, 5]]"), Contains("over 4.005 m"));  // a lens
   CHECK(below("[[0, 2], [4, 4], [4, 5], [0, 5]]").empty());  // 27 degrees: open after two spacings
   CHECK(below("[[0, 2], [4, 2], [4, 5], [0, 5]]").empty());
@@ -159,7 +191,7 @@ TEST_CASE("soils that touch at a point leave no slit that particles would bridge
 TEST_CASE("the number of time steps is bounded") {
   CHECK(
       errors_of(with("youngs_modulus = 1e6", "youngs_modulus = 1e15"), {"time.end=1e9"}) ==
-      "override 'time.end=1e9': key 'time.end' = 1000000000: takes about 6.77e+15 time steps; at most 1e+10");
+      "override 'time.end=1e9': key 'time.end' = 1000000000: takes about 8.13e+15 time steps; at most 1e+10");
 }
 
 TEST_CASE("probes on the outline are inside") {

@@ -93,7 +93,7 @@ TEST_CASE("a written case reads as the same case") {
 
 TEST_CASE("what is not given has its default, and stays so when written") {
   const Case c = parse_case(small_case, "box.toml");
-  CHECK(c.particles.smoothing_ratio == 1.2);
+  CHECK(c.particles.smoothing_ratio == 1);
   CHECK(c.soils[0].unit_weight_unsaturated == 20e3);
   CHECK_FALSE(c.water.present());
   CHECK(c.loading.k0 < 0);

@@ -74,13 +74,13 @@ TEST_CASE("bands have their middle on free surfaces and where these end") {
   const Case scene = held_embankment(0.2);
   const std::vector<Region> regions = {Region(embankment())};
   const auto has_middle = [&](int axis, double at) {
-    return std::ranges::any_of(bands_along(axis, scene, regions),
+    return std::ranges::any_of(bands_along(axis, scene, regions, FreeSurfaces::in_the_middle),
                                [&](const Band& band) { return std::abs(band.middle - at) < 1e-9; });
   };
   CHECK(has_middle(1, 6));
   CHECK(has_middle(1, 11));
   for (const double x : {10., 15., 20.5, 33.}) CHECK(has_middle(0, x));
-  const std::vector<Band> rows = bands_along(1, scene, regions);
+  const std::vector<Band> rows = bands_along(1, scene, regions, FreeSurfaces::in_the_middle);
   CHECK(rows.front().low == Approx(0).margin(1e-12));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     CHECK(rows[i].low == Approx(rows[i - 1].high));

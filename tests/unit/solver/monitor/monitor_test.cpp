@@ -32,7 +32,7 @@ TEST_CASE("a runaway is named with its place of origin", "[monitor]") {
   CHECK_FALSE(find_runaway(model, 0.5));
   model.particles.velocity[7] = Vec2(0, 1.01 * model.wave_speed);
   CHECK_THAT(find_runaway(model, 0.5).value().message,
-             Catch::Contains("particle 7 (from x = 0.75 m, y = 0.75 m)"));
+             Catch::Contains("particle 7 (from x = 0.750 m, y = 0.750 m)"));
   model.particles.stress[3].zz = std::nan("");
   CHECK_THAT(find_runaway(model, 0.5).value().message,
              Catch::Contains("particle 3 ") && Catch::Contains("not finite") ||

@@ -1,0 +1,39 @@
+#include "solver/case/local_origin.hpp"
+
+#include <cmath>
+
+namespace porosph {
+namespace {
+
+constexpr double near_enough = 1e4;  // m: positions then have 2e-12 m at least
+
+void move(Polygon& polygon, const Point& by) {
+  for (Point& p : polygon) p += by;
+}
+
+}  // namespace
+
+Point local_origin(const Case& scene) {
+  Point low = Point::Constant(never), farthest = Point::Zero();
+  for (const SoilCase& soil : scene.soils)
+    for (const Point& p : soil.polygon) low = low.cwiseMin(p), farthest = farthest.cwiseMax(p.cwiseAbs());
+  Point origin = Point::Zero();
+  for (int axis = 0; axis < 2; ++axis)
+    if (farthest[axis] > near_enough) origin[axis] = std::floor(low[axis]);
+  return origin;
+}
+
+Case moved(Case scene, const Point& by) {
+  if (by == Point::Zero()) return scene;
+  for (SoilCase& soil : scene.soils) {
+    move(soil.polygon, by);
+    for (Polygon& hole : soil.holes) move(hole, by);
+  }
+  for (WaterStretch& s : scene.water.stretches) s.x_from += by.x(), s.x_to += by.x(), s.level += by.y();
+  for (Point& p : scene.water.level_over_time) p.y() += by.y();
+  for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
+  for (ProbeCase& probe : scene.probes) probe.position += by;
+  return scene;
+}
+
+}  // namespace porosph
