@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/model/particles.hpp"
+#include "solver/particles/particles.hpp"
 #include "solver/model/water.hpp"
 
 namespace porosph {

@@ -8,7 +8,7 @@
 
 #include "solver/case/known_limits.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/constitutive/linear_elastic.hpp"
+#include "solver/soil/elasticity.hpp"
 #include "solver/geometry/clip.hpp"
 #include "solver/geometry/moments.hpp"
 #include "solver/geometry/region.hpp"
@@ -72,7 +72,7 @@ std::vector<Interval> soils_along(const Case& scene, double x) {
 }
 
 double constrained_modulus(const SoilCase& soil) {
-  return LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
+  return Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
 }
 
 /// Settlement of one interval under `above` [Pa], which grows by the interval's effective weight [m].

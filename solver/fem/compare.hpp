@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/fem/solution.hpp"
-#include "solver/model/particles.hpp"
+#include "solver/particles/particles.hpp"
 #include "solver/output/fem_check.hpp"
 
 namespace porosph {
