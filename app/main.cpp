@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/case/nearest.hpp"
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace {
@@ -22,6 +23,8 @@ const std::vector<Command> commands = {
     {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
+#endif
+#ifdef POROSPH_HAS_RENDER
     {"render", "draw a picture of a series", render_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
@@ -43,7 +46,7 @@ void print_overview(std::FILE* stream) {
              "  porosph init my_slope.toml                           a slope, every setting explained\n"
              "  porosph run my_slope.toml                            computes it into results/my_slope\n",
              heading("Begin with"));
-#ifdef POROSPH_HAS_VTK
+#ifdef POROSPH_HAS_RENDER
   fmt::print(stream, "  porosph render results/my_slope --field TotalStress:YY   draws a picture\n");
 #endif
 }
@@ -52,8 +55,8 @@ void print_overview(std::FILE* stream) {
   std::vector<std::string> names;
   for (const Command& c : commands) names.push_back(c.name);
   const std::string meant = porosph::nearest(name, names);
-  throw UsageError(fmt::format("'{}' is no subcommand{}; porosph --help lists them", name,
-                               meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant)));
+  throw UsageError(fmt::format("'{}' is not a subcommand{}; porosph --help lists them all", name,
+                               meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant)));
 }
 
 int dispatch(const Arguments& arguments) {
@@ -75,7 +78,7 @@ int dispatch(const Arguments& arguments) {
 }
 
 void tell_error(const std::string& message) {
-  std::cerr << styled(stderr, Style::error, "porosph:") << ' ' << message << '\n';
+  std::cerr << styled(stderr, Style::error, "porosph:") << ' ' << porosph::printable_lines(message) << '\n';
 }
 
 }  // namespace
@@ -87,7 +90,7 @@ int main(int argc, char** argv) {
   try {
     return dispatch(Arguments(argv + 1, argv + argc));
   } catch (const porosph::CaseError& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << porosph::printable_lines(error.what()) << '\n';
     return Exit::wrong_input;
   } catch (const porosph::WriteError& error) {
     tell_error(error.what());

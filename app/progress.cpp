@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/say.hpp"
+
 namespace porosph::app {
 namespace {
 
@@ -32,13 +34,12 @@ void Progress::show(const Simulation& s) {
   const std::string line =
       fmt::format("t = {:.4f} of {:g} s   step {} of {}   {:.2f} M particle-steps/s   {} left", s.time(),
                   s.scene().time.end, s.step(), s.last_step(), rate / 1e6, clock_text(left));
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\x1b[K" : "\n");
-  std::fflush(stderr);
+  say(stderr, terminal_ ? "\r" + line + "\x1b[K" : line + "\n");
   line_open_ = terminal_;
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  if (line_open_) say(stderr, "\r\x1b[K");
   line_open_ = false;
 }
 

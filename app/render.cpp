@@ -87,7 +87,7 @@ std::vector<std::size_t> choose_frames(const Series& series, const std::string& 
 
 fs::path picture_path(const Options& o, const FinishedRun& run, const FieldSelection& selection,
                       std::size_t frame) {
-  fs::path path = o.out.empty() ? run.folder / (selection.text() + ".png") : fs::path(o.out);
+  fs::path path = o.out.empty() ? run.folder / (file_name(selection.text()) + ".png") : fs::path(o.out);
   if (path.extension() != ".png")
     throw UsageError(fmt::format("--out = {}: the name must end in .png", o.out));
   if (o.time == "all") path.replace_filename(fmt::format("{}_{:06}.png", path.stem().string(), frame));

@@ -64,10 +64,10 @@ void remove_what_is_of_another(const fs::path& folder, const std::string& case_t
 
 /// Takes the folder for this case, empty of a run's results. The case file comes last: what is in the folder
 /// is never that of another.
-fs::path taken(const fs::path& folder, const std::string& case_text) {
+fs::path taken(const fs::path& folder, const std::string& case_text, const std::string& remark) {
   remove_what_is_of_another(folder, case_text);
   remove_results(folder);
-  write_file(folder / case_name, case_text);
+  write_file(folder / case_name, remark + case_text);
   return folder / history_name;
 }
 
@@ -76,6 +76,25 @@ SeriesOptions series_options(const Case& scene) {
   return {scene.output.format, scene.output.compression, script_scene(scene)};
 }
 #endif
+
+/// What the program does with the case by itself, as comments at the head of its file.
+std::string remark_on(const Simulation& s) {
+  const double asked = s.scene().time.courant;
+  if (s.courant() >= asked) return "";
+  return fmt::format(
+      "# The stiffest of the disordered particles allow a Courant number of {} only. It is used in place of\n"
+      "# time.courant = {}, also when this file is run again: the time step is {} s.\n",
+      s.courant(), asked, s.time_step());
+}
+
+bool is_interrupted_run(const fs::path& folder) {
+  if (!has_checkpoint(folder)) return false;
+  try {
+    return !finished_summary(folder);
+  } catch (const ReadError&) {
+    return true;
+  }
+}
 
 double time_of(std::int64_t step, const Simulation& s) { return static_cast<double>(step) * s.time_step(); }
 
@@ -89,10 +108,16 @@ void check_owner(const fs::path& folder, const std::string& case_text, bool resu
         fmt::format("{} holds {} of another case: choose another folder with --out, or give --force to "
                     "replace it",
                     folder.string(), holds_results(folder) ? "results" : "the case file"));
-  if (!resume && has_checkpoint(folder))
-    throw UsageError(
-        fmt::format("{} holds an interrupted run of this case: --resume goes on with it, --force begins anew",
-                    folder.string()));
+  if (!resume && is_interrupted_run(folder))
+    throw UsageError(fmt::format(
+        "{} holds an interrupted run of this case: --resume continues it, --force starts it again",
+        folder.string()));
+}
+
+void extend_run(const fs::path& folder, const std::string& case_text, const std::string& state) {
+  write_checkpoint(folder, case_text, state);  // that of the earlier end stays beside it
+  remove_file(folder / summary_name);
+  write_file(folder / case_name, case_text);
 }
 
 void take_folder(const fs::path& folder, const std::string& case_text) {
@@ -101,7 +126,7 @@ void take_folder(const fs::path& folder, const std::string& case_text) {
 }
 
 std::optional<Summary> finished_summary(const fs::path& folder) {
-  if (has_checkpoint(folder) || !fs::exists(folder / summary_name)) return std::nullopt;
+  if (!fs::exists(folder / summary_name)) return std::nullopt;
   Summary summary = read_summary(folder / summary_name);
   if (summary.status == RunStatus::interrupted) return std::nullopt;
   return summary;
@@ -110,24 +135,24 @@ std::optional<Summary> finished_summary(const fs::path& folder) {
 Results::Results(const fs::path& folder, const Simulation& simulation, [[maybe_unused]] bool frames)
     : folder_(folder),
       case_text_(write_case(simulation.scene())),
-      history_(taken(folder, case_text_), history_columns(simulation)) {
+      history_(taken(folder, case_text_, remark_on(simulation)), history_columns(simulation)) {
 #ifdef POROSPH_HAS_VTK
   if (frames) series_.emplace(folder_, series_options(simulation.scene()));
 #endif
 }
 
 Results::Results(const fs::path& folder, const Simulation& simulation, bool frames,
-                 const RunProgress& progress)
+                 const RunProgress& progress, const WrittenFiles& written)
     : folder_(folder),
       case_text_(write_case(simulation.scene())),
       history_(HistoryWriter::resume(folder / history_name, history_columns(simulation),
-                                     time_of(progress.recorded, simulation))) {
+                                     time_of(progress.recorded, simulation), written.history)) {
   if (const bool had_frames = fs::exists(folder_ / series_name); had_frames != frames)
-    throw UsageError(fmt::format("the run in {} was begun {} frames, and can only be resumed so",
+    throw UsageError(fmt::format("the run in {} was started {} frames, and can only be resumed that way",
                                  folder_.string(), had_frames ? "with" : "without"));
 #ifdef POROSPH_HAS_VTK
   if (frames)
-    series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation),
+    series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation), written.frames,
                                          series_options(simulation.scene())));
 #endif
 }
@@ -146,10 +171,22 @@ void Results::checkpoint(const std::string& state) {
   write_checkpoint(folder_, case_text_, state);
 }
 
+WrittenFiles Results::written() const {
+  WrittenFiles written;
+  written.history = history_.checksum();
+#ifdef POROSPH_HAS_VTK
+  if (series_) written.frames = series_->checksums();
+#endif
+  return written;
+}
+
 void Results::finish(const Summary& summary) {
   history_.sync();
   write_summary(folder_ / summary_name, summary);
-  if (summary.status != RunStatus::interrupted) remove_checkpoints(folder_);
+  if (summary.status == RunStatus::completed)
+    keep_newest_checkpoint(folder_);  // a later end time continues from there
+  else if (summary.status != RunStatus::interrupted)
+    remove_checkpoints(folder_);
 }
 
 }  // namespace porosph::app

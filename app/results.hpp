@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/written_files.hpp"
 #include "solver/simulation/run.hpp"
 #include "vtk_io/run_folder/checkpoint.hpp"
 #include "vtk_io/run_folder/history_csv.hpp"
@@ -15,31 +16,37 @@
 namespace porosph::app {
 
 /// Throws UsageError where a run of this case would write over what is not its own: another case's results or
-/// case file, or (unless it is resumed) an interrupted run's checkpoint.
+/// case file, or (unless it is resumed) an interrupted run.
 void check_owner(const std::filesystem::path& folder, const std::string& case_text, bool resume);
 
 /// Makes the folder one of this case: removes what is there of another, and writes its case file. Throws
 /// WriteError.
 void take_folder(const std::filesystem::path& folder, const std::string& case_text);
 
-/// How a run of the folder ended, if it is done: neither interrupted nor still to be resumed.
+/// Makes the interrupted or finished run of `folder` one of this case, which differs in its end and time step
+/// only; `state` is its checkpoint. Killed at any moment it leaves a run that can be resumed. Throws
+/// WriteError.
+void extend_run(const std::filesystem::path& folder, const std::string& case_text, const std::string& state);
+
+/// How a run of the folder ended, if it is done and not interrupted.
 std::optional<Summary> finished_summary(const std::filesystem::path& folder);
 
 /// The folder's files, fed by the run. All members throw WriteError.
 class Results {
  public:
-  /// Begins anew: what an earlier run wrote there is removed.
+  /// Begins at the start: what an earlier run wrote there is removed.
   Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames);
 
-  /// Goes on with the files of the run that left off at `progress`: what they hold beyond is removed. Throws
-  /// ReadError where they are not those of that run; UsageError where it wrote frames and this one does not,
-  /// or the other way round.
+  /// Continues the files of the run that left off at `progress`: what they hold beyond is removed. Throws
+  /// ReadError where they are not those that the run wrote; UsageError where it wrote frames and this one
+  /// does not, or the other way round.
   Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames,
-          const RunProgress& progress);
+          const RunProgress& progress, const WrittenFiles& written);
 
   void frame(Simulation& simulation);
   void row(const std::vector<double>& values) { history_.append(values); }
   void checkpoint(const std::string& state);
+  WrittenFiles written() const;
   void finish(const Summary& summary);
 
  private:

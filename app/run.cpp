@@ -1,21 +1,24 @@
 // porosph run: computes a case and keeps its files.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "app/check_by_fem.hpp"
 #include "app/command.hpp"
+#include "app/earlier_run.hpp"
+#include "app/interruption.hpp"
 #include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/results.hpp"
+#include "app/say.hpp"
 #include "app/shipped_cases.hpp"
 #include "app/summarise.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
 
@@ -23,14 +26,6 @@ namespace porosph::app {
 namespace {
 
 namespace po = boost::program_options;
-
-volatile std::sig_atomic_t signal_caught = 0;
-
-/// The first signal ends the run in order, the second at once.
-void catch_signal(int signal) {
-  if (signal_caught != 0) std::_Exit(Exit::interrupted);
-  signal_caught = signal;
-}
 
 struct Options {
   std::filesystem::path case_file, folder;
@@ -50,7 +45,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "replaces a setting of the case; may be given again, e.g. formulation.motion=proposed")(
       "threads", po::value(&o.threads)->value_name("N"),
       "threads to compute with (default: the cores that the particles keep busy)")(
-      "resume", "go on from the last checkpoint, if there is one, to the same results")(
+      "resume",
+      "continue from the last checkpoint, if there is one, to the same results; --set time.end=T with a "
+      "later T "
+      "also continues a run that is complete")(
       "checkpoint-every", po::value(&o.checkpoint_every)->value_name("SECONDS")->default_value(60),
       "of wall time between checkpoints; an interrupted run leaves one, too")(
       "force", "replace another case's results, or an interrupted run")(
@@ -62,7 +60,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
              "  porosph run cases/foundation.toml\n"
              "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
              "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n"
-             "  porosph run cases/foundation.toml --resume\n",
+             "  porosph run cases/foundation.toml --resume\n"
+             "  porosph run cases/foundation.toml --resume --set time.end=8\n",
              values))
     return std::nullopt;
   o.case_file = find_case(case_file);
@@ -72,8 +71,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
   o.quiet = values.count("quiet") > 0;
   o.resume = values.count("resume") > 0;
   o.force = values.count("force") > 0;
-  if (o.resume && o.force)
-    throw UsageError("--resume goes on with a run and --force begins it anew: give one");
+  if (o.resume && o.force) throw UsageError("--resume continues a run and --force starts it again: give one");
   if (!(o.checkpoint_every > 0))
     throw UsageError(fmt::format("--checkpoint-every = {}: must be > 0 s", o.checkpoint_every));
   if (values.count("threads") > 0 && (o.threads < 1 || o.threads > 1024))
@@ -91,14 +89,16 @@ int exit_of(RunStatus status) {
   return status == RunStatus::interrupted ? Exit::interrupted : Exit::done;
 }
 
-/// The state from which a run goes on.
+/// The state from which a run continues.
 struct LeftOff {
   RunProgress progress;
+  WrittenFiles written;
   double wall_seconds = 0;
 
   void visit(StateArchive& state, Simulation& simulation) {
     simulation.visit(state);
     progress.visit(state);
+    written.visit(state);
     state.value("wall_seconds", wall_seconds);
   }
 };
@@ -108,16 +108,45 @@ std::optional<FoundState> find_sound_state(const std::filesystem::path& folder,
   try {
     return find_state(folder, case_text);
   } catch (const ReadError& error) {
-    throw ReadError(error, "; --force begins the run anew");
+    throw ReadError(error, "; --force starts the run again");
   }
 }
 
+/// The case that is computed, and how it relates to the run in its folder.
+struct Task {
+  Case scene;
+  std::string case_text;
+  std::optional<std::string> earlier;  ///< text of the case with an earlier end that --resume continues
+
+  const std::string& text_in_folder() const { return earlier ? *earlier : case_text; }
+};
+
+Task read_task(const Options& o) {
+  Task task{read_case(o.case_file, o.overrides), "", std::nullopt};
+  if (o.resume) task.earlier = adopt_earlier_run(o.folder, task.scene);
+  task.case_text = write_case(task.scene);
+  return task;
+}
+
+/// How the folder's run ended, if --resume has nothing to continue.
+std::optional<Summary> nothing_to_resume(const Options& o, const Task& task) {
+  const auto done = o.resume ? finished_summary(o.folder) : std::nullopt;
+  if (!done || !task.earlier || done->status != RunStatus::completed) return done;
+  if (!has_checkpoint(o.folder))
+    throw UsageError(
+        fmt::format("{} does not hold the state at the end of its run (checkpoint.bin): --force "
+                    "computes the case from the start",
+                    o.folder.string()));
+  return std::nullopt;
+}
+
 /// Puts the simulation where the folder's checkpoint left off; nothing if there is none.
-std::optional<LeftOff> restore(const std::filesystem::path& folder, const std::string& case_text,
+std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& task,
                                Simulation& simulation) {
-  const auto found = find_sound_state(folder, case_text);
+  const auto found = find_sound_state(folder, task.text_in_folder());
   if (!found) return std::nullopt;
-  if (!found->note.empty()) std::cerr << "porosph: " << found->note << "; the checkpoint before it is used\n";
+  if (!found->note.empty())
+    std::cerr << "porosph: " << printable(found->note) << "; the checkpoint before it is used\n";
   LeftOff left_off;
   try {
     StateReader reader(found->state);
@@ -127,6 +156,16 @@ std::optional<LeftOff> restore(const std::filesystem::path& folder, const std::s
     throw ReadError(folder / "checkpoint.bin", error.what());
   }
   return left_off;
+}
+
+/// The folder's files, continued or new.
+Results open_results(const Options& o, const Simulation& simulation, const std::optional<LeftOff>& left_off) {
+  if (!left_off) return {o.folder, simulation, o.frames};
+  try {
+    return {o.folder, simulation, o.frames, left_off->progress, left_off->written};
+  } catch (const ReadError& error) {
+    throw ReadError(error, ": the run cannot be resumed; --force starts it again");
+  }
 }
 
 /// Says when a checkpoint is due.
@@ -148,41 +187,44 @@ int run_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
   const auto start = std::chrono::steady_clock::now();
-  std::signal(SIGINT, catch_signal);
-  std::signal(SIGTERM, catch_signal);
-  const Case scene = read_case(options->case_file, options->overrides);
-  const std::string case_text = write_case(scene);
-  check_memory(scene);
-  require_fem(scene);
-  const FolderLock lock(options->folder);
-  if (!options->force) check_owner(options->folder, case_text, options->resume);
-  if (options->resume) {
-    if (const auto done = finished_summary(options->folder)) {
-      if (!options->quiet) fmt::print("nothing to resume in {}: {}", options->folder.string(), tell(*done));
-      return exit_of(done->status);
-    }
+  catch_interruptions();
+  {
+    const Case scene = read_case(options->case_file, options->overrides);
+    check_memory(scene);
+    require_fem(scene);
   }
-  std::vector<std::string> warnings = warnings_of(scene);
+  const FolderLock lock(options->folder);
+  const Task task = read_task(*options);
+  if (!options->force) check_owner(options->folder, task.text_in_folder(), options->resume);
+  if (const auto done = nothing_to_resume(*options, task)) {
+    if (!options->quiet)
+      say(stdout, fmt::format("nothing to resume in {}: {}", options->folder.string(), tell(*done)));
+    return exit_of(done->status);
+  }
+  std::vector<std::string> warnings = warnings_of(task.scene);
   warn(warnings);
-  Simulation simulation(scene);
-  const std::vector<std::string> of_particles = warnings_of(simulation.model(), scene);
+  Simulation simulation(task.scene);
+  const std::vector<std::string> of_particles = warnings_of(simulation.model(), task.scene);
   warn(of_particles);
   warnings.insert(warnings.end(), of_particles.begin(), of_particles.end());
   warn_of_smaller_steps(simulation);
   use_threads(options->threads, simulation.model().particles.size());
   const auto left_off =
-      options->resume ? restore(options->folder, case_text, simulation) : std::optional<LeftOff>();
-  Results results = left_off ? Results(options->folder, simulation, options->frames, left_off->progress)
-                             : Results(options->folder, simulation, options->frames);
-  if (!options->quiet) {
-    fmt::print("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,
-               simulation.model().particles.size(), simulation.last_step(), simulation.scene().time.end,
-               options->folder.string());
-    if (options->resume)
-      fmt::print("{}\n", left_off ? fmt::format("goes on from {:.6g} s", simulation.time())
-                                  : "there is no checkpoint to go on from: begins at the start");
+      options->resume ? restore(options->folder, task, simulation) : std::optional<LeftOff>();
+  Results results = open_results(*options, simulation, left_off);
+  if (left_off && task.earlier) {
+    StateWriter state;
+    LeftOff(*left_off).visit(state, simulation);
+    extend_run(options->folder, task.case_text, state.content());
   }
-  std::fflush(stdout);
+  if (!options->quiet) {
+    say(stdout, fmt::format("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,
+                            simulation.model().particles.size(), simulation.last_step(),
+                            simulation.scene().time.end, options->folder.string()));
+    if (options->resume)
+      say(stdout, left_off ? fmt::format("continues from {:.6g} s\n", simulation.time())
+                           : "there is no checkpoint to continue from: starts at the beginning\n");
+  }
 
   const auto wall_seconds = [&] {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
@@ -193,15 +235,21 @@ int run_command(const Arguments& arguments) {
   const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {
     if (!ending && !since_checkpoint.over()) return;
     StateWriter state;
-    LeftOff{p, wall_seconds()}.visit(state, s);
-    results.checkpoint(state.content());
+    LeftOff{p, results.written(), wall_seconds()}.visit(state, s);
+    try {
+      results.checkpoint(state.content());
+    } catch (const WriteError& error) {
+      if (s.step() < s.last_step()) throw;  // a run that is complete has its results without it
+      std::cerr << fmt::format("porosph: warning: {}; the run cannot be resumed to a later end\n",
+                               error.what());
+    }
     since_checkpoint.restart();
   };
   const RunOutcome outcome = run(simulation,
                                  {.frame = [&](Simulation& s) { results.frame(s); },
                                   .history = [&](const auto& row) { results.row(row); },
                                   .progress = [&](const Simulation& s) { progress.show(s); },
-                                  .interrupted = [] { return signal_caught != 0; },
+                                  .interrupted = is_interrupted,
                                   .checkpoint = keep},
                                  left_off ? left_off->progress : RunProgress{});
   progress.finish();
@@ -209,7 +257,7 @@ int run_command(const Arguments& arguments) {
   summary.finite_elements = check_by_fem(simulation, summary);
   summary.warnings = warnings;
   results.finish(summary);
-  if (!options->quiet) std::cout << tell(summary) << std::flush;
+  if (!options->quiet) say(stdout, tell(summary));
   warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)
     std::cerr << "porosph: unstable: " << outcome.message << '\n';

@@ -17,7 +17,7 @@ fs::path cases_folder() {
   return program.parent_path().parent_path() / "share/porosph/cases";
 }
 
-/// Nothing where the file is no case.
+/// Nothing where the file is not a case.
 std::optional<std::string> title_of(const fs::path& file) {
   try {
     return read_case(file).title;

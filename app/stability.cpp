@@ -1,18 +1,21 @@
 // porosph stability: sweeps settings of a case and classes each run.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <iostream>
 #include <thread>
 
 #include "app/command.hpp"
+#include "app/interruption.hpp"
+#include "app/say.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/sweep/run_sweep.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
 #include "vtk_io/run_folder/verdict_table.hpp"
 #ifdef POROSPH_HAS_VTK
-#include "render/report/stability.hpp"
 #include "vtk_io/fem_measure.hpp"
+#endif
+#ifdef POROSPH_HAS_RENDER
+#include "render/report/stability.hpp"
 #endif
 
 namespace porosph::app {
@@ -20,13 +23,6 @@ namespace {
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t stop_asked = 0;
-/// The first signal ends the sweep in order, the second at once.
-void ask_to_stop(int) {
-  if (stop_asked != 0) std::_Exit(Exit::interrupted);
-  stop_asked = 1;
-}
 
 struct Options {
   std::vector<Sweep> sweeps;
@@ -143,8 +139,8 @@ class SweepFolder {
         sweep_, measure, options_.jobs,
         {.known = [this](std::size_t i, const std::string& f) { return recall(i, f); },
          .finished = [this](std::size_t i, const std::string& f, const Verdict& v) { keep(i, f, v); },
-         .interrupted = [] { return stop_asked != 0; }});
-    if (stop_asked == 0) sort_table();
+         .interrupted = is_interrupted});
+    if (!is_interrupted()) sort_table();
     return verdicts;
   }
 
@@ -170,9 +166,9 @@ class SweepFolder {
     done_.emplace_back(i, VerdictRow{x(i), y(i), fingerprint, v});
     writer_->append(done_.back().second);
     if (options_.quiet) return;
-    fmt::print("{}: {} {}: {}{}\n", sweep_.name, x(i), y(i), class_name(v.outcome),
-               v.message.empty() ? fmt::format(", error {:.3g} %", 100 * v.error) : ": " + v.message);
-    std::fflush(stdout);
+    say(stdout,
+        fmt::format("{}: {} {}: {}{}\n", sweep_.name, x(i), y(i), class_name(v.outcome),
+                    v.message.empty() ? fmt::format(", error {:.3g} %", 100 * v.error) : ": " + v.message));
   }
 
   /// In the sweep's order, without rows of other settings.
@@ -196,29 +192,28 @@ class SweepFolder {
 int stability_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  catch_interruptions();
   const FolderLock lock(options->folder);
-#ifdef POROSPH_HAS_VTK
+#ifdef POROSPH_HAS_RENDER
   std::vector<SweptMap> maps;
 #endif
   for (const Sweep& sweep : options->sweeps) {
     const auto verdicts = SweepFolder(sweep, *options).run();
-    if (stop_asked != 0) {
-      std::cerr << "porosph: interrupted; the same command goes on from here\n";
+    if (is_interrupted()) {
+      std::cerr << "porosph: interrupted; the same command continues from here\n";
       return Exit::interrupted;
     }
-#ifdef POROSPH_HAS_VTK
+#ifdef POROSPH_HAS_RENDER
     maps.push_back({sweep, verdicts, usual_values(sweep, sweep.x), usual_values(sweep, sweep.y)});
     save_stability_map(maps.back(), options->folder / (sweep.name + ".png"));
 #endif
   }
-#ifdef POROSPH_HAS_VTK
+#ifdef POROSPH_HAS_RENDER
   write_stability_study(maps, options->command, options->folder);
-  if (!options->quiet) fmt::print("{}\n", (options->folder / "index.html").string());
+  if (!options->quiet) say(stdout, (options->folder / "index.html").string() + "\n");
 #else
   if (!options->quiet)
-    fmt::print("{}: a table of each sweep; built without VTK, so no pictures\n", options->folder.string());
+    say(stdout, options->folder.string() + ": a table of each sweep; built without pictures\n");
 #endif
   return Exit::done;
 }

@@ -56,6 +56,7 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.steps = s.step();
   summary.time = s.time();
   summary.time_step = s.time_step();
+  summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
   summary.stepping_seconds = outcome.stepping_seconds;

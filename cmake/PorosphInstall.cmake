@@ -4,28 +4,18 @@ set(CMAKE_INSTALL_DOCDIR share/doc/porosph)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# What the program tells of itself: completions of command lines, and the manual page.
+# What the program tells about itself: the completion of command lines for bash, and the manual page.
 set(told ${CMAKE_BINARY_DIR}/share)
-set(shells bash fish zsh)
-set(bash_folder ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-set(bash_name porosph)
-set(fish_folder ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-set(fish_name porosph.fish)
-set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
-set(zsh_name _porosph)
-foreach(shell IN LISTS shells)
-  set(file ${told}/completion/${${shell}_name})
-  add_custom_command(OUTPUT ${file} DEPENDS porosph VERBATIM
-                     COMMAND ${CMAKE_COMMAND} -E make_directory ${told}/completion
-                     COMMAND porosph completion ${shell} > ${file})
-  list(APPEND told_files ${file})
-  install(FILES ${file} DESTINATION ${${shell}_folder} COMPONENT runtime)
-endforeach()
+set(completion ${told}/completion/porosph)
+add_custom_command(OUTPUT ${completion} DEPENDS porosph VERBATIM
+                   COMMAND ${CMAKE_COMMAND} -E make_directory ${told}/completion
+                   COMMAND porosph completion bash > ${completion})
+install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
 set(page ${told}/man/man1/porosph.1.gz)
 add_custom_command(OUTPUT ${page} DEPENDS porosph VERBATIM
                    COMMAND ${CMAKE_COMMAND} -E make_directory ${told}/man/man1
                    COMMAND porosph man | gzip -9n > ${page})
-add_custom_target(porosph_pages ALL DEPENDS ${told_files} ${page})
+add_custom_target(porosph_pages ALL DEPENDS ${completion} ${page})
 
 install(TARGETS porosph RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)

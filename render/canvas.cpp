@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "render/font.hpp"
+#include "solver/printable.hpp"
 
 namespace porosph {
 
@@ -148,7 +149,7 @@ void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
   if (text.empty()) return;
   apply(*context_.GetTextProp(), style, scale_);
   context_.DrawString(static_cast<float>(at.x * scale_), static_cast<float>(at.y * scale_),
-                      vtkStdString(text));
+                      vtkStdString(printable_lines(text)));
 }
 
 void Canvas::clip(const Box& box) {

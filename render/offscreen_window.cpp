@@ -2,7 +2,17 @@
 
 #include <stdexcept>
 
-#if __has_include(<vtkOSOpenGLRenderWindow.h>)  // VTK 9.4 and later bring their own
+#if __has_include(<vtkEGLRenderWindow.h>)  // VTK with EGL; from 9.4 on it is loaded when it is used
+
+#include <vtkEGLRenderWindow.h>
+
+namespace porosph {
+namespace {
+using OffscreenWindow = vtkEGLRenderWindow;
+}
+}  // namespace porosph
+
+#elif __has_include(<vtkOSOpenGLRenderWindow.h>)  // VTK with OSMesa
 
 #include <vtkOSOpenGLRenderWindow.h>
 
@@ -12,7 +22,7 @@ using OffscreenWindow = vtkOSOpenGLRenderWindow;
 }
 }  // namespace porosph
 
-#else
+#else  // VTK with X: Debian 12
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkObjectFactory.h>

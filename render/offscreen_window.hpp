@@ -1,4 +1,4 @@
-// A render window that needs no display: VTK draws through OSMesa, in software.
+// A render window that needs no display: VTK draws through EGL or OSMesa.
 #pragma once
 
 #include <vtkRenderWindow.h>
@@ -12,7 +12,7 @@ namespace porosph {
 std::mutex& render_mutex();
 
 /// A window of the given size in pixels, no multisampling, its OpenGL context checked to work.
-/// Throws std::runtime_error if OSMesa gives no context or another OpenGL library has taken its place.
+/// Throws std::runtime_error where OSMesa gives no context or another OpenGL library has taken its place.
 vtkSmartPointer<vtkRenderWindow> make_offscreen_window(int width, int height);
 
 }  // namespace porosph

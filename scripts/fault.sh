@@ -8,5 +8,5 @@ cmake --preset "$preset" > /dev/null
 cmake --build --preset "$preset" --target porosph
 porosph=build/$preset/bin/porosph
 python3 tests/fault/kill_and_resume.py "$porosph" --kills 50 --seed "$seed"
-python3 tests/fault/output_faults.py "$porosph"
+python3 tests/fault/output_faults.py "$porosph" || [ $? -eq 77 ]  # parts that cannot be tried here say so
 python3 tests/fault/mutated_cases.py "$porosph" cases/*.toml cases/verification/*.toml --count 500 --seed "$seed"

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <map>
 
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 #include "vtk_io/vtk_errors.hpp"
 
@@ -84,9 +85,17 @@ class HeadParser : public vtkXMLParser {
       array.component_names.push_back(attributes.at(component_key(c)));
     }
     if (array.component_names.size() != array.components) array.component_names.clear();
+    require_plain(array.name);
+    for (const std::string& component : array.component_names) require_plain(component);
     if (text_of(attributes, "format") != "appended")
       blame(fmt::format("the data of {} are not appended", array.name));
     head.arrays.push_back(std::move(array));
+  }
+
+  /// Names are shown on terminals and pages.
+  void require_plain(const std::string& name) {
+    if (!control_character(name).empty())
+      blame(fmt::format("the name of an array or component has control characters: '{}'", printable(name)));
   }
 
   static std::string component_key(std::uint64_t component) {

@@ -9,6 +9,7 @@
 
 #include "vtk_io/frame_file.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/checksum.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
@@ -37,17 +38,35 @@ SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
   make_folder(folder_ / frames_folder);
 }
 
-SeriesWriter SeriesWriter::resume(fs::path folder, double time, SeriesOptions options) {
+SeriesWriter SeriesWriter::resume(fs::path folder, double time, std::vector<std::uint32_t> checksums,
+                                  SeriesOptions options) {
   SeriesWriter series(std::move(folder), std::move(options));
   series.frames_ = read_pvd(series.pvd());
   std::erase_if(series.frames_, [&](const SeriesFrame& frame) { return frame.time > time; });
   if (series.frames_.empty() || series.frames_.back().time != time) {
-    throw ReadError(series.pvd(),
-                    fmt::format("it has no frame at {} s: cannot be continued from there", time));
+    throw ReadError(series.pvd(), fmt::format("it has no frame at {} s", time));
   }
+  series.check_files(checksums);
+  series.checksums_ = std::move(checksums);
   series.write_pvd();
   series.remove_unnamed_frames();
   return series;
+}
+
+void SeriesWriter::check_files(const std::vector<std::uint32_t>& checksums) const {
+  std::vector<std::string> files;
+  for (const SeriesFrame& frame : frames_) {
+    files.push_back(frame.file);
+    if (!frame.boundary_file.empty()) files.push_back(frame.boundary_file);
+  }
+  if (files.size() != checksums.size()) {
+    throw ReadError(pvd(), fmt::format("it names {} files up to {} s, and the run wrote {}", files.size(),
+                                       frames_.back().time, checksums.size()));
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (checksum_of(folder_ / files[i]) != checksums[i])
+      throw ReadError(folder_ / files[i], "it is not the file that the run wrote");
+  }
 }
 
 fs::path SeriesWriter::pvd() const { return folder_ / pvd_name; }
@@ -59,9 +78,11 @@ void SeriesWriter::write(const Frame& frame, const std::optional<Frame>& boundar
   }
   SeriesFrame entry{frame.time, frame_name("particles", frames_.size(), options_.format)};
   write_frame(folder_ / entry.file, frame, options_);
+  checksums_.push_back(checksum_of(folder_ / entry.file));
   if (boundary) {
     entry.boundary_file = frame_name("boundary", frames_.size(), options_.format);
     write_frame(folder_ / entry.boundary_file, *boundary, options_);
+    checksums_.push_back(checksum_of(folder_ / entry.boundary_file));
   }
   frames_.push_back(std::move(entry));
   write_pvd();

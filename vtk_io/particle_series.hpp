@@ -28,9 +28,11 @@ class SeriesWriter {
   /// Makes `folder` where there is none.
   explicit SeriesWriter(std::filesystem::path folder, SeriesOptions options = {});
 
-  /// Goes on with the series in `folder` after its frame at `time` [s]; later ones are removed.
-  /// Throws ReadError if its .pvd cannot be read or names no such frame.
-  static SeriesWriter resume(std::filesystem::path folder, double time, SeriesOptions options = {});
+  /// Continues the series in `folder` after its frame at `time` [s]; later ones are removed. Throws ReadError
+  /// if its .pvd cannot be read or names no such frame, or if the files up to it have other checksums than
+  /// these.
+  static SeriesWriter resume(std::filesystem::path folder, double time, std::vector<std::uint32_t> checksums,
+                             SeriesOptions options = {});
 
   /// Adds a frame, with the particles behind the walls as a second block where they are given. Throws
   /// std::invalid_argument if it is not consistent or earlier than the last.
@@ -38,13 +40,17 @@ class SeriesWriter {
 
   const std::vector<SeriesFrame>& frames() const { return frames_; }  ///< written so far
   std::filesystem::path pvd() const;
+  /// Of each file of the frames, in order; a frame's boundary after its particles.
+  const std::vector<std::uint32_t>& checksums() const { return checksums_; }
 
  private:
+  void check_files(const std::vector<std::uint32_t>& checksums) const;
   void write_pvd() const;
   void remove_unnamed_frames() const;
   std::filesystem::path folder_;
   SeriesOptions options_;
   std::vector<SeriesFrame> frames_;
+  std::vector<std::uint32_t> checksums_;
 };
 
 }  // namespace porosph

@@ -1,4 +1,4 @@
-// One run, its time and its error while it goes on.
+// One run, with its time and its error as it proceeds.
 #pragma once
 
 #include <functional>

@@ -9,6 +9,7 @@
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/csv.hpp"
 
 namespace porosph {
 namespace {
@@ -119,8 +120,8 @@ std::string csv_rows(const std::string& values, const std::string& reference,
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.9g}", v) : std::string(); };
   std::string rows;
   for (const FieldNorms& n : all)
-    rows += fmt::format("{},{},{},{},{},{:.9g},{:.9g}\n", values, reference, n.field.text(),
-                        number(n.relative_l2), number(n.max_abs), n.where.x(), n.where.y());
+    rows += csv_line({values, reference, n.field.text(), number(n.relative_l2), number(n.max_abs),
+                      number(n.where.x()), number(n.where.y())});
   return rows;
 }
 
@@ -170,7 +171,7 @@ Comparison compare_runs(const FinishedRun& a, std::size_t index_a, const Finishe
   }
   make_folder(folder);
   for (const FieldSelection& field : choice.pictures) {
-    result.pictures.push_back(field.text() + ".png");
+    result.pictures.push_back(file_name(field.text()) + ".png");
     draw_field(side_a, side_b, points, drawable_with_fem(field) ? fem : std::nullopt, field,
                choice.deformation, folder / result.pictures.back());
   }

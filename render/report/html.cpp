@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/printable.hpp"
+
 namespace porosph::html {
 namespace {
 
@@ -48,7 +50,7 @@ std::string row(const std::vector<std::string>& cells, const char* first, const 
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (char c : text) switch (c) {
+  for (char c : printable_lines(text)) switch (c) {
       case '&':
         out += "&amp;";
         break;

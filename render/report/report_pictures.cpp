@@ -16,13 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A name that is fit for a file and for a link to it.
-std::string file_name(const std::string& text) {
-  std::string out = text;
-  for (char& c : out)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
-  return out;
-}
-
 std::string subtitle_of(const FinishedRun& run, double time) {
   return time_text(time) + (run.scene ? ", " + formulation_text(run) : "");
 }
@@ -89,7 +82,7 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
     values.push_back(figure.panels.back().particles.values);
   }
   figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
-  const std::string file = "contours_" + field.text() + ".png";
+  const std::string file = "contours_" + file_name(field.text()) + ".png";
   save_contours(figure, folder / file);
   return {file, shown_name(field) + " of all runs",
           fmt::format("{} at the end of {}, one range of colours for all.", shown_name(field),

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "render/report/html.hpp"
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
@@ -27,10 +28,25 @@ void check_tables(const Study& study) {
     }
 }
 
-/// Names only, so that a study can be moved and cannot reach out of its folder.
+/// Names only, and no symbolic links, so that a study can be moved and cannot reach out of its folder: what
+/// it names is copied into reports.
 void require_file(const fs::path& folder, const std::string& name) {
-  if (name.empty() || fs::path(name).filename() != name || !fs::is_regular_file(folder / name))
-    throw ReadError(folder / name, "the study names it, but it is no file in the study's folder");
+  const bool is_name = !name.empty() && fs::path(name).filename() == name && control_character(name).empty();
+  const fs::path file = is_name ? folder / name : folder / printable(name);
+  std::error_code none;
+  const fs::file_status status = fs::symlink_status(file, none);
+  if (is_name && fs::is_symlink(status))
+    throw ReadError(file, "the study names it, but it is a symbolic link, which may lead out of its folder");
+  if (!is_name || !fs::is_regular_file(status))
+    throw ReadError(file, "the study names it, but it is not a file in the study's folder");
+}
+
+void require_plain_text(const Json& json) {
+  if (json.is_structured())
+    for (const auto& item : json.items()) require_plain_text(item.value());
+  if (!json.is_string()) return;
+  if (const std::string control = control_character(json.get<std::string>()); !control.empty())
+    throw std::invalid_argument("a text of the study holds control characters: " + control);
 }
 
 void require_files(const Study& study, const fs::path& folder) {
@@ -126,7 +142,9 @@ Study read_study(const fs::path& folder) {
   const fs::path file = folder / "study.json";
   const std::string text = read_file(file);
   try {
-    Study study = study_from(Json::parse(text));
+    const Json json = Json::parse(text);
+    require_plain_text(json);
+    Study study = study_from(json);
     require_files(study, folder);
     return study;
   } catch (const Json::exception& error) {

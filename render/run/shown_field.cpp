@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -43,6 +44,13 @@ std::string lower(std::string text) {
 
 }  // namespace
 
+std::string file_name(const std::string& text) {
+  std::string out = text;
+  for (char& c : out)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return out;
+}
+
 FieldSelection parse_selection(const std::string& text) {
   const auto colon = text.find(':');
   FieldSelection selection{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
@@ -60,7 +68,7 @@ std::vector<double> values_of(const Frame& frame, const FieldSelection& selectio
   const auto& names = field.components;
   if (selection.component.empty()) {
     if (width > 1 && names.front() != "X")
-      throw std::runtime_error(fmt::format("field '{0}' is no vector: choose a component, {0}:{1}",
+      throw std::runtime_error(fmt::format("field '{0}' is not a vector: choose a component, {0}:{1}",
                                            field.name, fmt::join(names, fmt::format(", {}:", field.name))));
     return width == 1 ? values : magnitudes(values, width);
   }

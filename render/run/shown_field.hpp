@@ -12,10 +12,12 @@ namespace porosph {
 /// A scalar field, one component of a field, or the magnitude of a vector (no component).
 struct FieldSelection {
   std::string name, component;
-  std::string text() const {
-    return component.empty() ? name : name + "_" + component;
-  }  ///< fit for file names
+  std::string text() const { return component.empty() ? name : name + "_" + component; }
 };
+
+/// A text as the name of a file in a folder: '_' takes the place of all but letters a to z, digits, '-' and
+/// '_', so that names that come from files never lead elsewhere.
+std::string file_name(const std::string& text);
 
 /// "EffectiveStress:YY", "Displacement", "PorePressure". Throws std::runtime_error if it is not NAME or
 /// NAME:COMPONENT.

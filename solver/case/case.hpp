@@ -107,6 +107,7 @@ struct LoadingCase {
 struct TimeCase {
   double end = 0;        ///< [s]
   double courant = 0.2;  ///< dt = courant * h / c_p, c_p the fastest compression wave [-]
+  double step = -1;      ///< dt in place of that, which it must not exceed; negative: none given [s]
 };
 
 /// When a run ends before its time.

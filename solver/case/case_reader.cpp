@@ -9,6 +9,7 @@
 #include "solver/case/nearest.hpp"
 #include "solver/case/overrides.hpp"
 #include "solver/case/report.hpp"
+#include "solver/printable.hpp"
 
 namespace porosph {
 namespace {
@@ -100,7 +101,11 @@ class Reader : public Fields {
            fmt::format("must be true, false or \"{}\"{}", word,
                        did_you_mean(nearest(given.value_or(""), {std::string(word)}))));
   }
-  void text(const Key& key, std::string& value) override { scalar(key, value, "text"); }
+  void text(const Key& key, std::string& value) override {
+    if (!scalar(key, value, "text")) return;
+    if (const std::string control = control_character(value); !control.empty())
+      fail(key, path(key), fmt::format("must not hold control characters, but has {}", control));
+  }
 
   void name(const Key& key, std::string& value) override {
     std::string given;
@@ -332,7 +337,7 @@ class Reader : public Fields {
   bool lengths_are_right_ = true;
 };
 
-// Dots that are no decimal points: at least all those that stand between the names of dotted keys.
+// Counts the dots that are not decimal points: at least all those between the names of dotted keys.
 std::size_t key_dots(std::string_view line) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto is_word = [&](char c) {
@@ -401,7 +406,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw CaseError(
-        fmt::format("{}: is no file that can be read{}", name, error ? ": " + error.message() : ""));
+        fmt::format("{}: is not a readable file{}", name, error ? ": " + error.message() : ""));
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (!error && size > largest_file)
     throw CaseError(fmt::format("{}: has {} bytes; at most {} are read", name, size, largest_file));

@@ -80,7 +80,7 @@ void declare(Fields& f, Case& c) {
   });
   f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
-  f.table(Key("time", "", "How far, and in which steps."), c.time);
+  f.table(Key("time", "", "End time and time step."), c.time);
   f.table(Key("stop", "", "When a run ends before its time."), c.stop);
   f.table(Key("check", "", "What the result is held against by itself."), c.check);
   f.table(Key("output", "", "What is written, and when."), c.output);
@@ -111,23 +111,23 @@ void declare(Fields& f, ParticlesCase& c) {
                .only_if(disordered, "arrangement = \"disordered\""),
            c.disorder, between(0, 0.5));
   f.integer(
-      Key("seed", "", "Of the random displacements.").only_if(disordered, "arrangement = \"disordered\""),
+      Key("seed", "", "Seed of the random displacements.").only_if(disordered, "arrangement = \"disordered\""),
       c.seed, between(0, 999999));
 }
 
 void declare(Fields& f, SoilCase& c) {
-  f.name(Key("name", "", "Unlike any other soil's.").required(), c.name);
+  f.name(Key("name", "", "Name of the soil, unlike any other.").required(), c.name);
   f.polygon(Key("polygon", "m", "Outline, last point not repeated, either orientation.").required(),
             c.polygon);
-  f.polygons(Key("holes", "m", "Outlines inside the polygon that are left free."), c.holes);
+  f.polygons(Key("holes", "m", "Outlines inside the polygon without soil."), c.holes);
   f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus,
            above(0, stiffest));
   f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
            {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
-  f.number(Key("unit_weight_saturated", "N/m3", "Of the soil below water.").required(),
+  f.number(Key("unit_weight_saturated", "N/m3", "Unit weight of the soil below water.").required(),
            c.unit_weight_saturated, above(0, heaviest));
   f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
-  f.number(Key("unit_weight_unsaturated", "N/m3", "Of the soil above water; not more than saturated.")
+  f.number(Key("unit_weight_unsaturated", "N/m3", "Unit weight of the soil above water; not more than saturated.")
                .otherwise("as saturated"),
            c.unit_weight_unsaturated, above(0, heaviest));
   if (c.unit_weight_unsaturated > c.unit_weight_saturated)
@@ -137,19 +137,18 @@ void declare(Fields& f, SoilCase& c) {
              "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
              "compressive the soil stays elastic and its shear strength is unlimited: nothing slips."),
          c.no_tension);
-  f.point(Key("velocity", "m/s", "At the start."), c.velocity);
+  f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
-               "At the start: counter-clockwise, about the middle of the polygon's bounding box."),
+               "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
            c.angular_velocity, between(-1e6, 1e6));
   f.number(Key("bending_velocity", "m/s",
-               "At the start: upwards at the right end of a plate that is clamped at its left end, elsewhere "
-               "in the "
-               "shape of the first bending mode. For an upright rectangle."),
+               "Vibration at the start: upwards at the right end of a plate that is clamped at its left end, "
+               "elsewhere in the shape of the first bending mode. For an upright rectangle."),
            c.bending_velocity, between(-1e6, 1e6));
 }
 
 void declare(Fields& f, WaterCase& c) {
-  f.number(Key("unit_weight", "N/m3", "Of water."), c.unit_weight, above(0, heaviest));
+  f.number(Key("unit_weight", "N/m3", "Unit weight of water."), c.unit_weight, above(0, heaviest));
   const bool moves = !c.level_over_time.empty();
   double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
@@ -220,11 +219,11 @@ void declare(Fields& f, FormulationCase& c) {
            c.zero_energy_control, between(0, 1));
   f.number(key_of_consistent("zero_energy_stiffness",
                              "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
-                             "u, u the displacement since kernel gradients were made; 0: viscous only.")
+                             "u, u the displacement since kernel gradients were built; 0: viscous only.")
                .otherwise("0, but 0.1 where gradients had to be closed"),
            c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
-                             "Strain or rotation after which kernel gradients are made anew; 0: every step.")
+                             "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),
            c.refresh_strain, between(0, 0.1));
   f.flag(key_of_consistent(
@@ -263,6 +262,12 @@ void declare(Fields& f, TimeCase& c) {
   f.number(Key("end", "s", "When the run ends.").required(), c.end, above(0, longest));
   f.number(Key("courant", "", "dt = courant * h / c_p, c_p the fastest compression wave."), c.courant,
            above(0, 10));
+  f.number(
+      Key("step", "s",
+          "Time step, at most the one that `courant` allows; the run then ends with the first step at or "
+          "after `end`. A run that was resumed to a later end has one: the step that it began with.")
+          .otherwise("that of `courant`, rounded down so that whole steps reach `end`"),
+      c.step, above(0, longest));
 }
 
 void declare(Fields& f, StopCase& c) {
@@ -288,24 +293,24 @@ void declare(Fields& f, OutputCase& c) {
     for (const Field& field : field_table()) all.emplace_back(field.name);
     return all;
   }();
-  f.number(Key("interval", "s", "Between frames; 0: first and last only."), c.interval, between(0, longest));
-  f.numbers(Key("times", "s", "Of further frames, each at the step nearest to it."), c.times,
+  f.number(Key("interval", "s", "Time between frames; 0: first and last only."), c.interval, between(0, longest));
+  f.numbers(Key("times", "s", "Times of further frames, each written at the nearest step."), c.times,
             between(0, longest));
-  f.number(Key("history_interval", "s", "Between rows of the history; 0: every step."), c.history_interval,
+  f.number(Key("history_interval", "s", "Time between rows of the history; 0: every step."), c.history_interval,
            between(0, longest));
   f.words(Key("fields", "", "Particle data of the frames; only these are computed for output."), c.fields,
           known);
   f.flag(Key("boundary", "", "Whether the mirror particles behind the walls are written, as a second block."),
          c.boundary);
-  f.choice(Key("format", "", "Of the frames: PolyData (`vtp`) or UnstructuredGrid (`vtu`)."), c.format,
+  f.choice(Key("format", "", "Format of the frames: PolyData (`vtp`) or UnstructuredGrid (`vtu`)."), c.format,
            frame_formats);
-  f.choice(Key("compression", "", "Of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
+  f.choice(Key("compression", "", "Compression of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
            c.compression, compressions);
 }
 
 void declare(Fields& f, ProbeCase& c) {
-  f.name(Key("name", "", "Unlike any other probe's.").required(), c.name);
-  f.point(Key("position", "m", "At the start; the probe then moves with the soil.").required(), c.position);
+  f.name(Key("name", "", "Name of the probe, unlike any other.").required(), c.name);
+  f.point(Key("position", "m", "Position at the start; the probe then moves with the soil.").required(), c.position);
 }
 
 }  // namespace porosph

@@ -44,7 +44,8 @@ Demand demand_of(const Case& scene) {
   demand.particles = whole / (scene.particles.spacing * scene.particles.spacing);
   demand.bytes = demand.particles * bytes_per_particle(scene);
   const double time_step_bound = scene.time.courant * scene.smoothing_length();
-  demand.steps = scene.time.end * wave_speed(scene) / time_step_bound;
+  demand.steps = scene.time.step > 0 ? scene.time.end / scene.time.step
+                                     : scene.time.end * wave_speed(scene) / time_step_bound;
   return demand;
 }
 

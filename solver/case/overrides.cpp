@@ -11,15 +11,15 @@
 namespace porosph {
 namespace {
 
-// A table that holds the value as "value". What is no TOML is a bare word, unless it looks like unfinished
-// TOML.
+// Returns a table that holds the value as "value". Text that is not TOML is a bare word, unless it looks like
+// unfinished TOML.
 toml::table parse_value(const std::string& text) {
   if (text.find_first_of("\r\n") != std::string::npos) throw std::runtime_error("the value must be one line");
   try {
     return toml::parse("value = " + text);
   } catch (const toml::parse_error& error) {
     if (text.empty() || text.find_first_of("[]{}\"'=#") != std::string::npos)
-      throw std::runtime_error(fmt::format("the value is no TOML: {}", error.description()));
+      throw std::runtime_error(fmt::format("the value is not TOML: {}", error.description()));
     return toml::table{{"value", text}};
   }
 }
@@ -41,7 +41,7 @@ std::size_t find_table(const toml::array& tables, const std::string& list, const
   const auto [end, error] = std::from_chars(which.data(), which.data() + which.size(), index);
   if (error == std::errc{} && end == which.data() + which.size() && index < tables.size()) return index;
   throw std::runtime_error(
-      fmt::format("there is no {} '{}'; there are {} ({})", list, which, tables.size(), names_of(tables)));
+      fmt::format("there is no {} '{}'; the case has {}", list, which, names_of(tables)));
 }
 
 Override apply(toml::table& root, const std::string& text) {
@@ -73,7 +73,7 @@ Override apply(toml::table& root, const std::string& text) {
     } else {
       table = next.as_table();
     }
-    if (!table) throw std::runtime_error(fmt::format("'{}' is no table", path));
+    if (!table) throw std::runtime_error(fmt::format("'{}' is not a table", path));
   }
   path += (path.empty() ? "" : ".") + steps.back();
   std::move(value).get("value")->visit(

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "solver/printable.hpp"
+
 namespace porosph {
 namespace {
 
@@ -59,7 +61,7 @@ const Override* Report::override_of(const std::string& key) const {
 void Report::add(const std::string& key, std::string_view message) {
   const Override* source = override_of(key);
   const std::string named =
-      key.empty() ? "case" : fmt::format("key '{}'{}", key, value_text(root_.at_path(key).node()));
+      key.empty() ? "case" : printable(fmt::format("key '{}'{}", key, value_text(root_.at_path(key).node())));
   toml::source_position at{1, 1};
   for (std::string outer = key; !outer.empty(); outer = parent(outer)) {
     const auto found = root_.at_path(outer);
@@ -68,14 +70,15 @@ void Report::add(const std::string& key, std::string_view message) {
     break;
   }
   if (source)
-    errors_.push_back({after_the_file, fmt::format("override '{}': {}: {}", source->text, named, message)});
+    errors_.push_back(
+        {after_the_file, fmt::format("override '{}': {}: {}", printable(source->text), named, message)});
   else
     errors_.push_back({at, fmt::format("{}: {}: {}", place(file_, at), named, message)});
 }
 
 void Report::add(const std::string& key, std::string_view message, toml::source_position at) {
   if (at.line == 0 || override_of(key)) return add(key, message);
-  errors_.push_back({at, fmt::format("{}: key '{}': {}", place(file_, at), key, message)});
+  errors_.push_back({at, fmt::format("{}: key '{}': {}", place(file_, at), printable(key), message)});
 }
 
 std::string Report::text() const {

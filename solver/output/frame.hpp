@@ -49,6 +49,7 @@ struct Summary {
   bool kernel_correction = true;
   std::int64_t particles = 0, steps = 0;
   double time = 0, time_step = 0;  ///< [s]
+  double courant = 0;              ///< that was used, at most the case's; 0: not told [-]
   int threads = 1;
   double wall_seconds = 0, stepping_seconds = 0, particle_steps_per_second = 0;
   std::int64_t peak_memory_bytes = 0;

@@ -138,6 +138,8 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     progress.energy_at_start = energy.total();
     progress.most_at_work = energy.kinetic + energy.elastic;
     record(true, true);
+  } else {
+    record(frames.due(s.step()), rows.due(s.step()));  // where the end is later than it was
   }
   const Guard guard(s);
   while (s.step() < s.last_step()) {
@@ -151,10 +153,12 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
       outcome.message = s.instability()->message;
       break;
     }
+    const bool last = s.step() == s.last_step();
+    if (last && !settled && watch.checkpoint) watch.checkpoint(s, progress, true);
     record(frames.due(s.step()), rows.due(s.step()));
     if (watch.progress) watch.progress(s);
-    const bool interrupted = !settled && watch.interrupted && watch.interrupted();
-    if (watch.checkpoint && !settled) watch.checkpoint(s, progress, interrupted);
+    const bool interrupted = !last && !settled && watch.interrupted && watch.interrupted();
+    if (watch.checkpoint && !last && !settled) watch.checkpoint(s, progress, interrupted);
     if (settled) {
       outcome.status = RunStatus::equilibrium;
       outcome.message =

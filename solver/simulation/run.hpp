@@ -35,14 +35,15 @@ struct RunProgress {
   void visit(StateArchive& state);  ///< saves or restores all of it
 };
 
-/// What the caller does while a run goes on. Empty functions are not called.
+/// What the caller does during a run. Empty functions are not called.
 struct RunWatch {
   std::function<void(Simulation&)> frame;                       ///< a frame is due (output.interval)
   std::function<void(const std::vector<double>& row)> history;  ///< a row of history_columns()
   std::function<void(const Simulation&)> progress;              ///< after every step
   std::function<bool()> interrupted;                            ///< true ends the run after this step
-  /// After every step from which a run can go on: the place to save simulation and progress. `ending`: the
-  /// run was interrupted. What it writes next does not belong to a run that is resumed from here.
+  /// After every step from which a run can be resumed: the place to save simulation and progress. `ending`:
+  /// the run was interrupted, or reached its end time. What it writes next does not belong to a run that is
+  /// resumed from here (one with a later end may have no frame at this step).
   std::function<void(Simulation&, RunProgress&, bool ending)> checkpoint = {};
 };
 

@@ -26,9 +26,15 @@ double courant_number(const Case& scene, const Model& model) {
   return scene.time.courant * std::min(1.0, lattice_frequency / frequency);
 }
 
-/// The largest that the Courant number allows, rounded down so that whole steps reach the end time [s].
-double whole_time_step(const Case& scene, const Model& model, double courant) {
+/// The case's, or else the largest that the Courant number allows, rounded down so that whole steps reach the
+/// end time [s].
+double time_step_of(const Case& scene, const Model& model, double courant) {
   const double largest = courant * model.smoothing_length / model.wave_speed;
+  const double given = scene.time.step;
+  if (given > largest * (1 + 1e-12))
+    throw std::runtime_error(fmt::format(
+        "time.step = {:g} s: must be <= {:g} s, as the Courant number is {:g}", given, largest, courant));
+  if (given > 0) return given;
   return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
 }
 
@@ -62,8 +68,8 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
       courant_(courant_number(scene, model_)),
-      dt_(whole_time_step(scene, model_, courant_)),
-      last_step_(std::llround(scene.time.end / dt_)),
+      dt_(time_step_of(scene, model_, courant_)),
+      last_step_(std::llround(std::ceil(scene.time.end / dt_ * (1 - 1e-12)))),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
   closest_at_start_ = closest_distance(model_.particles.position, 2 * model_.spacing);

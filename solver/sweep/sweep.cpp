@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "solver/case/case_file.hpp"
+#include "solver/printable.hpp"
 
 namespace porosph {
 namespace {
@@ -51,7 +52,7 @@ class SweepReader {
     std::ifstream stream(file_, std::ios::binary);
     std::ostringstream content;
     if (!fs::is_regular_file(file_) || !(content << stream.rdbuf()))
-      throw CaseError(fmt::format("{}: is no file that can be read", file_.string()));
+      throw CaseError(fmt::format("{}: is not a readable file", file_.string()));
     try {
       return toml::parse(content.str(), file_.string());
     } catch (const toml::parse_error& error) {
@@ -68,12 +69,18 @@ class SweepReader {
              fmt::format("is unknown; allowed are {}", fmt::join(keys, ", ")));
   }
 
+  std::string without_control(const toml::node& at, std::string_view key, const std::string& value) const {
+    if (const std::string control = control_character(value); !control.empty())
+      fail(at, key, fmt::format("must not hold control characters, but has {}", control));
+    return value;
+  }
+
   std::string text(const toml::table& table, std::string_view key) const {
     const toml::node* node = table.get(key);
     if (!node) fail(table, key, "is missing");
     const auto value = node->value_exact<std::string>();
     if (!value || value->empty()) fail(*node, key, "must be text");
-    return *value;
+    return without_control(*node, key, *value);
   }
 
   std::vector<std::string> texts(const toml::table& table, std::string_view key) const {
@@ -84,7 +91,7 @@ class SweepReader {
     for (const toml::node& item : *node->as_array()) {
       const auto value = item.value_exact<std::string>();
       if (!value) fail(item, key, "must be a list of text");
-      values.push_back(*value);
+      values.push_back(without_control(item, key, *value));
     }
     return values;
   }

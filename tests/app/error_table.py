@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the mistakes of docs/errors.md and compares what the program says with what stands there.
 
-Usage: error_table.py PROGRAM [--write]      --write makes the document anew
+Usage: error_table.py PROGRAM [--write]      --write updates the document
 """
 import fcntl
 import os
@@ -12,16 +12,16 @@ import sys
 import tempfile
 
 DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "docs" / "errors.md"
-HEAD = """# What goes wrong, and what is said then
+HEAD = """# Error messages
 
-A test makes every mistake below and compares the program's words with this page. To make the page anew:
+A test makes every mistake below and compares the message with this page. To update the page:
 
 ```sh long
 cmake --preset tests && cmake --build --preset tests --target porosph
 tests/app/error_table.py build/tests/bin/porosph --write
 ```
 
-All errors of a case are told at once, in the order of the file; here each stands alone. Lines and columns are those of
+The program reports all errors of a case at once, in the order of the file; here each stands alone. Lines and columns refer to
 this case:
 
 """
@@ -60,7 +60,8 @@ IN_THE_CASE = [
     ("a key that is missing", "poissons_ratio = 0.3\n", ""),
     ("a value out of range", "poissons_ratio = 0.3", "poissons_ratio = 0.5"),
     ("text for a number", "end = 0.1", 'end = "0.1 s"'),
-    ("a number that is none", "end = 0.1", "end = nan"),
+    ("a number that is not finite", "end = 0.1", "end = nan"),
+    ("text with control characters", '"Box"', '"Box\\u001b[31m"'),
     ("a word that is not offered", '"fixed"', '"fixd"'),
     ("a setting that would not be used", "[time]", "[formulation]\nmotion = \"proposed\"\nbulk_viscosity = 0.1\n[time]"),
     ("a name given twice", "[[boundary]]", CLAY.replace("clay", "sand").replace("4.2", "4") + "[[boundary]]"),
@@ -129,6 +130,8 @@ WITH_FILES = [
     ("a history with a word in it", "report run2", {"run2/history.csv": "time,A.PorePressure\n0,high\n"}),
     ("a summary cut short", "report run3", {"run3/summary.json": '{"title": "Box", '}),
     ("a damaged checkpoint", "run case.toml --out run4 --resume", {"run4/checkpoint.bin": "rubbish"}),
+    ("a history that was changed", "run case.toml --out run5 --resume --set time.end=0.2", {"run5/history.csv": "time,B\n"}),
+    ("an end that the run is beyond", "run case.toml --out run2 --resume --set time.end=0.05", {}),
 ]
 
 
@@ -145,7 +148,7 @@ def row(what, how, status, message, expected=(2, 4)):
 
 
 def table(title, rows):
-    return f"\n## {title}\n\n| What is wrong | Try | Exit | What is said |\n|---|---|---|---|\n" + "".join(rows)
+    return f"\n## {title}\n\n| What is wrong | Example | Exit status | Message |\n|---|---|---|---|\n" + "".join(rows)
 
 
 def in_a_case(place, program, mistakes, expected=(2, 4)):
@@ -173,14 +176,15 @@ def main():
     program = pathlib.Path(sys.argv[1]).resolve()
     place = pathlib.Path(tempfile.mkdtemp(prefix="porosph_errors_"))
     (place / "case.toml").write_text(CASE)
-    for folder in ("run", "run2", "run3", "run4"):
+    for folder in ("run", "run2", "run3", "run4", "run5"):
         subprocess.run([program, "run", "case.toml", "--quiet", "--out", folder], cwd=place, check=True)
+    (place / "run4" / "summary.json").unlink()  # as after a kill
     (place / "busy").mkdir()
     busy = os.open(place / "busy", os.O_RDONLY)
     fcntl.flock(busy, fcntl.LOCK_EX)
     page = HEAD + "".join(f"    {line}\n" for line in CASE.splitlines())
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
-    page += table("Of the ground", in_a_case(place, program, OF_THE_GROUND))
+    page += table("In the ground", in_a_case(place, program, OF_THE_GROUND))
     page += table("Warnings of the case", in_a_case(place, program, WARNED_OF, expected=(0,)))
     page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))
     page += table("With files", by_command(place, program, WITH_FILES))
@@ -189,7 +193,7 @@ def main():
         DOCUMENT.write_text(page)
     elif DOCUMENT.read_text() != page:
         print(page)
-        sys.exit(f"{DOCUMENT} does not say this; make it anew with --write")
+        sys.exit(f"{DOCUMENT} does not say this; update it with --write")
 
 
 if __name__ == "__main__":

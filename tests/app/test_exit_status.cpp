@@ -22,7 +22,7 @@ TEST_CASE("a wrong command line ends with status 2 and says what is wrong") {
   place.write("small.toml", small_case);
   const auto [arguments, message] = GENERATE(table<std::string, std::string>({
       {"", "Usage:"},
-      {"draw", "'draw' is no subcommand"},
+      {"draw", "'draw' is not a subcommand"},
       {"run", "case"},
       {"run small.toml --thread 1", "--thread"},
       {"run small.toml --threads 0", "--threads = 0"},

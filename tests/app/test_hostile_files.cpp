@@ -91,6 +91,68 @@ TEST_CASE("a mesh whose triangles have nodes that are not there is refused") {
   check_refused(spoilt, with_content(spoilt, std::string(text).insert(at + 15, "99999999999")));
 }
 
+TEST_CASE("text that a terminal obeys is refused in every file that is shown") {
+  const auto check_refused_with = [](const Spoilt& spoilt, const std::string& old, const std::string& bad) {
+    std::string text = text_of(computed().folder() / spoilt.file);
+    const auto at = text.find(old);
+    REQUIRE(at != std::string::npos);
+    const Outcome outcome = with_content(spoilt, text.replace(at, old.size(), bad));
+    check_refused(spoilt, outcome);
+    CHECK_THAT(outcome.err, Contains("control characters") && !Contains("\x1b"));
+  };
+  check_refused_with({"run/summary.json", "report run --out page"}, "\"message\": \"",
+                     "\"message\": \"\\u001b[2J");
+  check_refused_with({"run/summary.json", "run small.toml --out run --resume --set output.interval=0"},
+                     "\"message\": \"", "\"message\": \"\\u001b[2J");
+  check_refused_with({"run/history.csv", "report run --out page"}, "A.PorePressure", "A.\x1b[2JPressure");
+  check_refused_with({"run/case.toml", "report run --out page"}, "title = \"Small", "title = \"\\u001b[2J");
+  check_refused_with({"run/frames/particles_000001.vtp", "render run --field PorePressure --out p.png"},
+                     "Name=\"Velocity\"", "Name=\"V&#x9b;2Jcity\"");
+  const Outcome option = computed().porosph("render run --field \"$(printf '\\033[2J')\"");
+  CHECK(option.status == 2);
+  CHECK_THAT(option.err, Contains("[U+001B][2J") && !Contains("\x1b"));
+}
+
+TEST_CASE("a field's name leads to no other folder") {
+  const Workplace& place = computed();
+  const fs::path frame = place.folder() / "run/frames/particles_000001.vtp";
+  const std::string sound = text_of(frame);
+  std::string evil = sound;
+  const std::string name = "Name=\"PorePressure\"";
+  evil.replace(evil.find(name), name.size(), "Name=\"../../../../x\"");
+  place.write("run/frames/particles_000001.vtp", evil);
+  const Outcome outcome = place.porosph("render run --field ../../../../x");
+  place.write("run/frames/particles_000001.vtp", sound);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out == "run/____________x.png\n");
+  CHECK(fs::exists(place.folder() / "run/____________x.png"));
+}
+
+TEST_CASE("a study's symbolic links and outside files are not copied into a report") {
+  const Workplace& place = computed();
+  fs::create_directories(place.folder() / "study");
+  place.write("secret.png", "private");
+  const auto study = [](const std::string& file) {
+    return R"({"title": "S", "lead": "", "files": [], "command": "", "sections": [{"heading": "H", "paragraphs": [],
+      "tables": [], "pictures": [{"file": ")" +
+           file + R"(", "description": "", "caption": ""}]}]})";
+  };
+  fs::create_symlink(place.folder() / "secret.png", place.folder() / "study/a.png");
+  for (const std::string file : {"a.png", "../secret.png", "", ".."}) {
+    CAPTURE(file);
+    place.write("study/study.json", study(file));
+    const Outcome outcome = place.porosph("report run study --out with_study");
+    CHECK(outcome.status == 4);
+    CHECK_THAT(outcome.err, Contains(file == "a.png" ? "symbolic link" : "not a file in the study's folder"));
+  }
+  CHECK_FALSE(fs::exists(place.folder() / "with_study/study_1_a.png"));
+  place.write("study/study.json", "{\"title\": \"\\u001b[2J\"}");
+  const Outcome outcome = place.porosph("report run study --out with_study");
+  CHECK(outcome.status == 4);
+  CHECK_THAT(outcome.err, Contains("study.json") && Contains("control characters"));
+}
+
 TEST_CASE("what a summary and a case say is text on the page, not markup") {
   const Workplace& place = computed();
   const std::string sound = text_of(place.folder() / "run/summary.json"),

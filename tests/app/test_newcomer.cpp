@@ -77,7 +77,6 @@ TEST_CASE("list names the cases, which run, check and fem understand") {
 TEST_CASE("every subcommand is in completion and manual page with all its options") {
   const Workplace place;
   const std::string man = std::regex_replace(place.porosph("man").out, std::regex(R"(\\-)"), "-");
-  const std::string fish = place.porosph("completion fish").out, zsh = place.porosph("completion zsh").out;
   const std::set<std::string> commands = subcommands(place);
   CHECK(commands.size() >= 10);
   for (const std::string& command : commands) {
@@ -89,8 +88,6 @@ TEST_CASE("every subcommand is in completion and manual page with all its option
       CAPTURE(option);
       CHECK_THAT(man, Contains(".B " + option));
       CHECK_THAT(bash, Contains(option + "\n"));
-      CHECK_THAT(fish, Contains("-l " + option.substr(2)));
-      CHECK_THAT(zsh, Contains(option + "[") || Contains(option + "=["));
     }
   }
 }
@@ -105,7 +102,7 @@ TEST_CASE("bash completes subcommands, cases, settings, fields and files") {
   CHECK(offered(place, "porosph run x.toml --set particles.spa") == "particles.spacing=\n");
   CHECK(offered(place, "porosph render x --field EffectiveStress:Y") == "YY\nYZ\n");
   CHECK(offered(place, "porosph compare a b --time ") == "last\ncommon\n");
-  CHECK(offered(place, "porosph completion ") == "bash\nfish\nzsh\n");
+  CHECK(place.porosph("completion zsh").status == 2);
 }
 
 TEST_CASE("colours are printed on a terminal only, and not with NO_COLOR") {

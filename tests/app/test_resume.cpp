@@ -1,5 +1,6 @@
 // Runs that are stopped, resumed, or find somebody else's files in their folder.
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "tests/app/porosph.hpp"
 
@@ -29,7 +30,7 @@ void spoil(const fs::path& file) {
 TEST_CASE("a signal ends a run with status 130, a checkpoint and whole files") {
   const Workplace place;
   place.write("small.toml", small_case);
-  const std::string signal = GENERATE("TERM", "INT");
+  const std::string signal = GENERATE("TERM", "INT", "HUP");
   CHECK(stop_endless_run(place, signal, "results/small/particles.pvd") == 130);
   const fs::path folder = place.folder() / "results/small";
   CHECK(fs::exists(folder / "checkpoint.bin"));
@@ -38,7 +39,7 @@ TEST_CASE("a signal ends a run with status 130, a checkpoint and whole files") {
 
   const Outcome again = place.porosph(endless);
   CHECK(again.status == 2);
-  CHECK_THAT(again.err, Contains("--resume goes on with it, --force begins anew"));
+  CHECK_THAT(again.err, Contains("--resume continues it, --force starts it again"));
   CHECK(fs::exists(folder / "checkpoint.bin"));
 }
 
@@ -78,7 +79,7 @@ TEST_CASE("damaged checkpoints") {
   SECTION("a run without frames is not resumed with them, and the other way round") {
     const Outcome outcome = place.porosph(endless + " --resume --no-frames");
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.err, Contains("was begun with frames"));
+    CHECK_THAT(outcome.err, Contains("was started with frames"));
   }
 }
 
@@ -87,13 +88,126 @@ TEST_CASE("resuming begins at the start where there is nothing, and is content w
   place.write("small.toml", small_case);
   const Outcome first = place.porosph("run small.toml --resume");
   CHECK(first.status == 0);
-  CHECK_THAT(first.out, Contains("begins at the start"));
+  CHECK_THAT(first.out, Contains("starts at the beginning"));
   const auto written = fs::last_write_time(place.folder() / "results/small/summary.json");
   const Outcome second = place.porosph("run small.toml --resume");
   CHECK(second.status == 0);
   CHECK_THAT(second.out, Contains("nothing to resume"));
   CHECK(fs::last_write_time(place.folder() / "results/small/summary.json") == written);
-  CHECK_FALSE(fs::exists(place.folder() / "results/small/checkpoint.bin"));
+  CHECK_FALSE(fs::exists(place.folder() / "results/small/checkpoint.previous.bin"));
+}
+
+namespace {
+
+/// The files that a run writes, but for those with its folder or its run time in them.
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    const bool is_the_same = name != "checkpoint.bin" && name != "summary.json" && !name.ends_with(".py");
+    if (entry.is_regular_file() && is_the_same) files[name] = text_of(entry.path());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a finished run is resumed to a later end, as if it had had it from the start") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  // 0.1 s between frames: 0.55 s is no multiple of it, so the last frame of the short run must go
+  const std::string run = "run small.toml --quiet --set time.end=";
+  REQUIRE(place.porosph(run + "0.55 --out parts").status == 0);
+  const Outcome second = place.porosph(run + "1.3 --out parts --resume");
+  CAPTURE(second.err);
+  REQUIRE(second.status == 0);
+  const std::string case_text = text_of(place.folder() / "parts/case.toml");
+  const auto at = case_text.find("\nstep = ");
+  REQUIRE(at != std::string::npos);
+  const std::string step = case_text.substr(at + 8, case_text.find(' ', at + 8) - at - 8);
+  REQUIRE(place.porosph(run + "1.3 --out whole --set time.step=" + step).status == 0);
+  CHECK(files_of(place.folder() / "parts") == files_of(place.folder() / "whole"));
+  CHECK_THAT(text_of(place.folder() / "parts/summary.json"), Contains("\"completed\""));
+
+  const Outcome again = place.porosph("run small.toml --set time.end=1.3 --out parts --resume");
+  CHECK(again.status == 0);
+  CHECK_THAT(again.out, Contains("nothing to resume"));
+  const Outcome earlier = place.porosph(run + "0.9 --out parts --resume");
+  CHECK(earlier.status == 2);
+  CHECK_THAT(earlier.err, Contains("the run in parts goes to 1.3 s"));
+  CHECK(place.porosph(run + "1.3 --out parts --resume --set loading.damping=0.04").status == 2);
+  fs::remove(place.folder() / "parts/checkpoint.bin");
+  const Outcome gone = place.porosph(run + "2 --out parts --resume");
+  CHECK(gone.status == 2);
+  CHECK_THAT(gone.err, Contains("does not hold the state at the end of its run"));
+}
+
+TEST_CASE("results that were changed are not continued") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  const std::string run = "run small.toml --quiet --out run --set time.end=";
+  REQUIRE(place.porosph(run + "0.5").status == 0);
+  const auto check_refused = [&](const std::string& file, const std::string& content,
+                                 const std::string& said) {
+    const std::string sound = text_of(place.folder() / file);
+    REQUIRE(content != sound);
+    place.write(file, content);
+    const Outcome outcome = place.porosph(run + "1 --resume");
+    CAPTURE(file, outcome.err);
+    CHECK(outcome.status == 4);
+    CHECK_THAT(outcome.err, Contains(file) && Contains(said) && Contains("--force starts it again"));
+    place.write(file, sound);
+  };
+  const std::string history = text_of(place.folder() / "run/history.csv");
+  const auto third_line = history.find('\n', history.find('\n') + 1) + 1;
+  std::string edited = history, shorter = history;
+  edited[history.find('\n', third_line) - 1] ^= 1;  // another digit
+  shorter.erase(third_line, history.find('\n', third_line) + 1 - third_line);
+  check_refused("run/history.csv", edited, "are not those that the run wrote");
+  check_refused("run/history.csv", shorter, "are not those that the run wrote");
+  check_refused("run/history.csv", history.substr(0, third_line), "no row at");
+  std::string renamed = history;
+  renamed.replace(renamed.find("A.Eff"), 5, "B.Eff");
+  check_refused("run/history.csv", renamed, "columns");
+  const std::string frame = "run/frames/particles_000002.vtp";
+  check_refused(frame, text_of(place.folder() / "run/frames/particles_000001.vtp"),
+                "not the file that the run wrote");
+  CHECK(place.porosph(run + "1 --resume").status == 0);
+}
+
+TEST_CASE("a reader of the output that leaves does not end the run") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  const int status =
+      place.shell("{ '" POROSPH_PROGRAM "' run small.toml --out run 2>&1; echo $? > status; } | true");
+  CHECK(status == 0);
+  CHECK(text_of(place.folder() / "status") == "0\n");
+  CHECK_THAT(text_of(place.folder() / "run/summary.json"), Contains("\"completed\""));
+}
+
+TEST_CASE("a run that ignores hang-ups, as under nohup, goes on after one") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  const int status =
+      place.shell("trap '' HUP; '" POROSPH_PROGRAM "' " + endless +
+                  " --quiet & while [ ! -e results/small/checkpoint.bin ]; do sleep 0.01; done; "
+                  "kill -HUP $!; sleep 0.3; kill -0 $! && kill -TERM $!; wait $!");
+  CHECK(status == 130);
+}
+
+TEST_CASE("the steps that disorder asks for are told in the case and the summary, and come out again") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  REQUIRE(place
+              .porosph("run small.toml --quiet --out first --set time.end=0.05 "
+                       "--set particles.arrangement=disordered --set particles.disorder=0.4")
+              .status == 0);
+  CHECK_THAT(text_of(place.folder() / "first/case.toml"),
+             Contains("# The stiffest of the disordered particles allow a Courant number of 0."));
+  CHECK_THAT(text_of(place.folder() / "first/summary.json"),
+             Contains("\"courant\": 0.") && !Contains("\"courant\": 0.4,"));
+  REQUIRE(place.porosph("run first/case.toml --quiet --out second").status == 0);
+  CHECK(files_of(place.folder() / "first") == files_of(place.folder() / "second"));
 }
 
 TEST_CASE("another case's results are replaced only by force") {
@@ -101,7 +215,8 @@ TEST_CASE("another case's results are replaced only by force") {
   place.write("small.toml", small_case);
   REQUIRE(place.porosph("run small.toml --out run --quiet").status == 0);
   CHECK(place.porosph("run small.toml --out run --quiet").status == 0);  // the same case: computed again
-  const std::string other = "run small.toml --out run --quiet --no-frames --set time.end=0.5";
+  const std::string other =
+      "run small.toml --out run --quiet --no-frames --set time.end=0.5 --set loading.damping=0.04";
   for (const std::string option : {"", " --resume"}) {
     const Outcome refused = place.porosph(other + option);
     CHECK(refused.status == 2);

@@ -158,8 +158,8 @@ def main():
         different = differences(whole[name], content(folder))
         if different:
             failures.append(f"round {round_number} ({name}): differs in {', '.join(different)}")
-        elif (folder / "checkpoint.bin").exists():
-            failures.append(f"round {round_number} ({name}): the finished run left a checkpoint")
+        elif (folder / "checkpoint.previous.bin").exists():
+            failures.append(f"round {round_number} ({name}): the finished run left an old checkpoint")
         if not different:
             shutil.rmtree(folder)
 

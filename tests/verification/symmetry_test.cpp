@@ -53,6 +53,6 @@ TEST_CASE("symmetry: a symmetric embankment stays symmetric") {
             "stress and displacement against their mirror images, undamped, " +
                 std::string(motion_name(s.scene().formulation.motion)) + " form",
             "mirror symmetry", metres(0.5)},
-           asymmetry(s.model().particles, partner), 1e-9, scientific);
+           asymmetry(s.model().particles, partner), 1e-11, scientific);
   }
 }

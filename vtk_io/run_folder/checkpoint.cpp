@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <boost/crc.hpp>
 #include <cstdint>
 #include <cstring>
 #include <system_error>
 
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/checksum.hpp"
 #include "vtk_io/run_folder/descriptor.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they stand in memory");
 
 constexpr std::string_view magic = "Porosph checkpoint\n";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr const char *newest_name = "checkpoint.bin", *previous_name = "checkpoint.previous.bin";
 
 template <class Number>
@@ -56,9 +56,9 @@ bool take_text(std::string_view& rest, std::string_view& text) {
 }
 
 std::uint32_t checksum(std::initializer_list<std::string_view> parts) {
-  boost::crc_32_type crc;
-  for (const std::string_view part : parts) crc.process_bytes(part.data(), part.size());
-  return crc.checksum();
+  Checksum sum;
+  for (const std::string_view part : parts) sum.add(part);
+  return sum.value();
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void StateReader::bytes(std::string_view name, void* data, std::size_t size) {
 }
 
 void StateReader::finish() const {
-  if (!rest_.empty()) throw StateError("the saved state goes on after its end");
+  if (!rest_.empty()) throw StateError("the saved state continues after its end");
 }
 
 void write_checkpoint(const fs::path& folder, std::string_view case_text, const std::string& state) {
@@ -110,7 +110,7 @@ bool has_checkpoint(const fs::path& folder) {
 std::string read_checkpoint(const fs::path& file, std::string_view case_text) {
   const std::string text = read_file(file);
   std::string_view rest = text;
-  if (!rest.starts_with(magic)) throw ReadError(file, "it is no checkpoint");
+  if (!rest.starts_with(magic)) throw ReadError(file, "it is not a checkpoint");
   rest.remove_prefix(magic.size());
   std::uint32_t its_version = 0, its_checksum = 0;
   if (!take(rest, its_version) || !take(rest, its_checksum)) throw ReadError(file, "it is cut short");
@@ -146,6 +146,11 @@ std::optional<FoundState> find_state(const fs::path& folder, std::string_view ca
 void remove_checkpoints(const fs::path& folder) {
   std::error_code ignored;  // one that is left does no harm: it is of the same case, and older
   for (const char* name : {newest_name, previous_name}) fs::remove(folder / name, ignored);
+}
+
+void keep_newest_checkpoint(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / newest_name, ignored)) fs::remove(folder / previous_name, ignored);
 }
 
 }  // namespace porosph

@@ -1,4 +1,4 @@
-// checkpoint.bin: the state of a run, from which it goes on after an interruption.
+// checkpoint.bin: the state of a run, from which it continues after an interruption or to a later end.
 #pragma once
 
 #include <filesystem>
@@ -53,5 +53,6 @@ std::optional<FoundState> find_state(const std::filesystem::path& folder, std::s
 std::string read_checkpoint(const std::filesystem::path& file, std::string_view case_text);
 
 void remove_checkpoints(const std::filesystem::path& folder);
+void keep_newest_checkpoint(const std::filesystem::path& folder);  ///< removes the one before it
 
 }  // namespace porosph

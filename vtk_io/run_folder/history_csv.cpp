@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/csv.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
@@ -31,6 +31,9 @@ std::string fault_of(const std::vector<std::string>& columns) {
     if (name.find_first_of(",\"\r\n") != std::string::npos) {
       return fmt::format("column {}: the name must not hold commas, quotes or line breaks", i + 1);
     }
+    if (const auto control = control_character(name); !control.empty()) {
+      return fmt::format("column {}: the name must not hold control characters, but has {}", i + 1, control);
+    }
     if (!seen.insert(name).second) return fmt::format("column {}: '{}' occurs twice", i + 1, name);
   }
   return {};
@@ -43,11 +46,7 @@ std::string header(const std::vector<std::string>& columns) {
 void append_row(std::string& text, std::span<const double> row) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (i > 0) text += ',';
-    if (std::isnan(row[i])) {
-      text += "nan";  // without the sign bit, which says nothing
-    } else {
-      fmt::format_to(std::back_inserter(text), "{:.17g}", row[i]);
-    }
+    append_csv_number(text, row[i]);
   }
   text += '\n';
 }
@@ -62,17 +61,6 @@ std::string_view without_carriage_return(std::string_view line) {
   return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
-/// The cells of a line, or of any text between commas.
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (auto comma = line.find(','); comma != line.npos; comma = line.find(',')) {
-    cells.push_back(line.substr(0, comma));
-    line.remove_prefix(comma + 1);
-  }
-  cells.push_back(line);
-  return cells;
-}
-
 /// Reads line after line and knows where it is, for the messages.
 class Reader {
  public:
@@ -81,9 +69,9 @@ class Reader {
   HistoryFile read() {
     const auto first = next_line();
     if (!first) fail("the line of column names is missing or torn");
-    for (const auto name : split(*first)) result_.history.columns.emplace_back(name);
+    result_.history.columns = cells_of(*first);
     if (const auto fault = fault_of(result_.history.columns); !fault.empty()) fail(fault);
-    while (const auto line = next_line()) add_row(split(*line));
+    while (const auto line = next_line()) add_row(cells_of(*line));
     if (!rest_.empty()) result_.torn_line = rest_;
     return std::move(result_);
   }
@@ -98,7 +86,15 @@ class Reader {
     return without_carriage_return(line);
   }
 
-  void add_row(const std::vector<std::string_view>& cells) {
+  std::vector<std::string> cells_of(std::string_view line) const {
+    try {
+      return csv_cells(line);
+    } catch (const std::invalid_argument& fault) {
+      fail(fault.what());
+    }
+  }
+
+  void add_row(const std::vector<std::string>& cells) {
     const auto& columns = result_.history.columns;
     auto& rows = result_.history.rows;
     if (cells.size() != columns.size()) {
@@ -113,13 +109,11 @@ class Reader {
   }
 
   double number(std::string_view cell, std::size_t column) const {
-    double value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc{} || end != cell.data() + cell.size()) {
-      fail(fmt::format("column {} ({}): '{}' is not a number", column + 1, result_.history.columns[column],
-                       cell));
+    try {
+      return csv_number(cell);
+    } catch (const std::invalid_argument& fault) {
+      fail(fmt::format("column {} ({}): {}", column + 1, result_.history.columns[column], fault.what()));
     }
-    return value;
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
@@ -134,7 +128,9 @@ class Reader {
 
 }  // namespace
 
-void write_history(const std::filesystem::path& file, const History& history) {
+namespace {
+
+std::string text_of(const History& history) {
   if (const auto fault = fault_of(history.columns); !fault.empty())
     throw std::invalid_argument("history: " + fault);
   auto text = header(history.columns);
@@ -142,29 +138,43 @@ void write_history(const std::filesystem::path& file, const History& history) {
     check_row(row.size(), history.columns.size());
     append_row(text, row);
   }
-  write_file(file, text);
+  return text;
+}
+
+}  // namespace
+
+void write_history(const std::filesystem::path& file, const History& history) {
+  write_file(file, text_of(history));
 }
 
 HistoryFile read_history(const std::filesystem::path& file) { return Reader(file, read_file(file)).read(); }
 
-HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::size_t columns)
-    : columns_(columns), file_(file, O_WRONLY | O_APPEND, file) {}
+HistoryWriter::HistoryWriter(const std::filesystem::path& file, const History& history)
+    : columns_(history.columns.size()),
+      file_((write_history(file, history), file), O_WRONLY | O_APPEND, file) {
+  checksum_.add(text_of(history));
+}
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, const std::vector<std::string>& columns)
-    : HistoryWriter((write_history(file, {columns, {}}), file), columns.size()) {}
+    : HistoryWriter(file, History{columns, {}}) {}
 
 HistoryWriter HistoryWriter::resume(const std::filesystem::path& file,
-                                    const std::vector<std::string>& columns, double time) {
+                                    const std::vector<std::string>& columns, double time,
+                                    std::uint32_t checksum) {
   auto history = read_history(file).history;
   if (history.columns != columns) {
-    throw ReadError(file, "its columns are not those of the case: cannot be continued");
+    throw ReadError(file, "its columns are not those of the case");
   }
   std::erase_if(history.rows, [&](const auto& row) { return row[0] > time; });
   if (history.rows.empty() || history.rows.back()[0] != time) {
-    throw ReadError(file, fmt::format("it has no row at {} s: cannot be continued from there", time));
+    throw ReadError(file, fmt::format("it has no row at {} s", time));
   }
-  write_history(file, history);
-  return HistoryWriter(file, columns.size());
+  Checksum found;
+  found.add(text_of(history));
+  if (found.value() != checksum) {
+    throw ReadError(file, fmt::format("its rows up to {} s are not those that the run wrote", time));
+  }
+  return HistoryWriter(file, history);
 }
 
 HistoryWriter::~HistoryWriter() {
@@ -176,7 +186,9 @@ HistoryWriter::~HistoryWriter() {
 
 void HistoryWriter::append(std::span<const double> row) {
   check_row(row.size(), columns_);
+  const auto before = pending_.size();
   append_row(pending_, row);
+  checksum_.add(std::string_view(pending_).substr(before));
   if (pending_.size() >= block_bytes || std::chrono::steady_clock::now() - last_flush_ >= block_time) flush();
 }
 

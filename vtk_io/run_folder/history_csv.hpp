@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/output/frame.hpp"
+#include "vtk_io/run_folder/checksum.hpp"
 #include "vtk_io/run_folder/descriptor.hpp"
 
 namespace porosph {
@@ -33,10 +34,11 @@ class HistoryWriter {
   /// Replaces `file` by one with no rows. Throws as write_history.
   HistoryWriter(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
-  /// Continues `file` after its row at `time` [s]: later rows and a torn last line are dropped.
-  /// Throws ReadError, also if there is no such row or its columns are not these; WriteError.
+  /// Continues `file` after its row at `time` [s]: later rows and a torn last line are dropped. Throws
+  /// ReadError, also if there is no such row, its columns are not these, or the rest has another checksum
+  /// than this; WriteError.
   static HistoryWriter resume(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                              double time);
+                              double time, std::uint32_t checksum);
 
   HistoryWriter(HistoryWriter&&) = default;
   HistoryWriter& operator=(HistoryWriter&&) = delete;
@@ -49,10 +51,13 @@ class HistoryWriter {
   /// As flush(), and waits until the disk has them. Throws WriteError, as flush() also if the file was
   /// removed.
   void sync();
+  /// Of the column names and all rows so far, as text.
+  std::uint32_t checksum() const { return checksum_.value(); }
 
  private:
-  HistoryWriter(const std::filesystem::path& file, std::size_t columns);
+  HistoryWriter(const std::filesystem::path& file, const History& history);
   std::size_t columns_;
+  Checksum checksum_;
   Descriptor file_;
   std::string pending_;
   std::chrono::steady_clock::time_point last_flush_ = std::chrono::steady_clock::now();

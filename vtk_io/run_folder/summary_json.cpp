@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/printable.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/fem_check_json.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
@@ -91,6 +92,7 @@ Json to_json(const Summary& summary) {
   json["steps"] = summary.steps;
   put(json, "time", summary.time);
   put(json, "time_step", summary.time_step);
+  if (summary.courant > 0) put(json, "courant", summary.courant);
   json["threads"] = summary.threads;
   put(json, "wall_seconds", summary.wall_seconds);
   put(json, "stepping_seconds", summary.stepping_seconds);
@@ -127,7 +129,9 @@ class Object {
   std::string text(const std::string& key) const {
     const auto& value = at(key);
     if (!value.is_string()) fail(key, "must be a string", value);
-    return value.get<std::string>();
+    const auto text = value.get<std::string>();
+    if (printable_lines(text) != text) fail(key, "must be text without control characters", value);
+    return text;
   }
 
   std::vector<std::string> texts(const std::string& key) const {
@@ -176,7 +180,11 @@ class Object {
 
   std::vector<std::string> keys() const {
     std::vector<std::string> result;
-    for (const auto& entry : json_.items()) result.push_back(entry.key());
+    for (const auto& entry : json_.items()) {
+      if (!control_character(entry.key()).empty())
+        fail("a key must not hold control characters", Json(entry.key()));
+      result.push_back(entry.key());
+    }
     return result;
   }
 
@@ -233,6 +241,7 @@ Summary summary_from(const Object& json) {
   summary.steps = json.integer<std::int64_t>("steps");
   summary.time = json.number("time");
   summary.time_step = json.number("time_step");
+  if (json.has("courant")) summary.courant = json.number("courant");
   summary.threads = json.integer<int>("threads");
   summary.wall_seconds = json.number("wall_seconds");
   summary.stepping_seconds = json.number("stepping_seconds");

@@ -3,12 +3,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/tokenizer.hpp>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 
 #include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/csv.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph {
@@ -18,19 +18,17 @@ constexpr std::string_view head =
     "x,y,class,cause,time,steps,error,unbalanced_force_ratio,energy_growth,fingerprint,message\n";
 constexpr std::size_t columns = 11;
 
-std::string quoted(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return '"' + text + '"';
+std::string number(double value) {
+  std::string text;
+  if (std::isfinite(value)) append_csv_number(text, value);
+  return text;
 }
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; }
 
 std::string line(const VerdictRow& row) {
   const Verdict& v = row.verdict;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(row.x), quoted(row.y),
-                     class_name(v.outcome), v.cause, number(v.time), v.steps, number(v.error),
-                     number(v.unbalanced), number(v.energy_growth), row.fingerprint, quoted(v.message));
+  return csv_line({row.x, row.y, std::string(class_name(v.outcome)), v.cause, number(v.time),
+                   fmt::to_string(v.steps), number(v.error), number(v.unbalanced), number(v.energy_growth),
+                   row.fingerprint, v.message});
 }
 
 class RowParser {
@@ -44,7 +42,7 @@ class RowParser {
     row.verdict = {.outcome = parsed_class(f[2]),
                    .cause = f[3],
                    .time = parsed_or_none(f[4]),
-                   .steps = parsed<std::int64_t>(f[5]),
+                   .steps = parsed_count(f[5]),
                    .error = parsed_or_none(f[6]),
                    .unbalanced = parsed_or_none(f[7]),
                    .energy_growth = parsed_or_none(f[8]),
@@ -57,30 +55,30 @@ class RowParser {
     throw ReadError(file_, fmt::format("line {}: {}", line_, what));
   }
   std::vector<std::string> fields(const std::string& text) const {
-    // Quotes and backslashes cannot occur in a field, so nothing is escaped.
-    const boost::escaped_list_separator<char> separator('\0', ',', '"');
     try {
-      const boost::tokenizer<boost::escaped_list_separator<char>> tokens(text, separator);
-      return {tokens.begin(), tokens.end()};
-    } catch (const boost::escaped_list_error&) {
-      fail("has a zero byte");
+      return csv_cells(text);
+    } catch (const std::invalid_argument& fault) {
+      fail(fault.what());
     }
   }
-  template <class Number>
-  Number parsed(const std::string& text) const {
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-      fail(fmt::format("'{}' is no number", text));
-    return value;
+  double parsed(const std::string& text) const {
+    try {
+      return csv_number(text);
+    } catch (const std::invalid_argument& fault) {
+      fail(fault.what());
+    }
   }
-  double parsed_or_none(const std::string& text) const {
-    return text.empty() ? std::nan("") : parsed<double>(text);
+  double parsed_or_none(const std::string& text) const { return text.empty() ? std::nan("") : parsed(text); }
+  std::int64_t parsed_count(const std::string& text) const {
+    const double value = parsed(text);
+    if (!(value >= 0 && value < 9e15 && value == std::floor(value)))
+      fail(fmt::format("'{}' is not a whole number", text));
+    return static_cast<std::int64_t>(value);
   }
   StabilityClass parsed_class(const std::string& name) const {
     for (int c = 0; c < stability_classes; ++c)
       if (class_name(static_cast<StabilityClass>(c)) == name) return static_cast<StabilityClass>(c);
-    fail(fmt::format("'{}' is no class", name));
+    fail(fmt::format("'{}' is not a class", name));
   }
 
   const std::filesystem::path& file_;
@@ -97,7 +95,7 @@ void write_verdicts(const std::filesystem::path& file, const std::vector<Verdict
 
 std::vector<VerdictRow> read_verdicts(const std::filesystem::path& file) {
   const std::string text = read_file(file);
-  if (!text.starts_with(head)) throw ReadError(file, "it is no table of verdicts");
+  if (!text.starts_with(head)) throw ReadError(file, "it is not a table of verdicts");
   std::vector<VerdictRow> rows;
   std::size_t number = 2;
   for (std::size_t from = head.size(), end; (end = text.find('\n', from)) != std::string::npos;

@@ -10,7 +10,7 @@
 
 namespace porosph {
 
-/// One row. Numbers that are not finite are empty fields. Text is quoted; quotes in it become apostrophes.
+/// One row. Numbers that are not finite are empty cells.
 struct VerdictRow {
   std::string x, y;         ///< labels of the point
   std::string fingerprint;  ///< of its complete case

@@ -8,10 +8,26 @@
 namespace porosph {
 namespace {
 
+// The same units as the flags in cmake/PorosphDispatch.cmake.
+#ifdef POROSPH_CPU_LEVELS
+bool has_avx2() { return __builtin_cpu_supports("x86-64-v3") != 0; }
+bool has_avx512() { return __builtin_cpu_supports("x86-64-v4") != 0; }
+#elif defined POROSPH_DISPATCH
+bool has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+         __builtin_cpu_supports("bmi2");
+}
+bool has_avx512() {
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+#endif
+
 bool processor_has(VectorUnits units) {
 #ifdef POROSPH_DISPATCH
-  if (units == VectorUnits::avx512) return __builtin_cpu_supports("x86-64-v4") != 0;
-  if (units == VectorUnits::avx2) return __builtin_cpu_supports("x86-64-v3") != 0;
+  if (units == VectorUnits::avx512) return has_avx512();
+  if (units == VectorUnits::avx2) return has_avx2();
 #endif
   return units == VectorUnits::portable;
 }

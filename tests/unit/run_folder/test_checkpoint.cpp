@@ -173,9 +173,9 @@ TEST_CASE("where no checkpoint is left, one message says why", "[checkpoint]") {
   CHECK_THROWS_WITH(find_state(folder.path(), "title = \"Another\"\n"),
                     Contains("checkpoint.bin") && Contains("belongs to another case"));
   put(folder / "checkpoint.bin", "");
-  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("it is no checkpoint"));
+  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("it is not a checkpoint"));
   put(folder / "checkpoint.bin", std::string("Porosph checkpoint\n\x09\0\0\0\0\0\0\0", 27));
-  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("its format is 9, this program's is 1"));
+  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("its format is 9, this program's is 2"));
   put(folder / "checkpoint.previous.bin", "rubbish");
   CHECK_THROWS_AS(find_state(folder.path(), case_text), ReadError);
 }

@@ -128,18 +128,56 @@ TEST_CASE("a history that vanished is missed at the next flush") {
 TEST_CASE("a resumed history goes on after the given time") {
   const TemporaryFolder folder;
   const auto file = folder / "history.csv";
-  write_history(file, {columns, {{0, 1, 2}, {0.1, 1, 2}, {0.2, 1, 2}, {0.3, 1, 2}}});
+  std::uint32_t checksum_up_to_there = 0;
+  {
+    HistoryWriter writer(file, columns);
+    for (const Row& row : {Row{0, 1, 2}, Row{0.1, 1, 2}, Row{0.2, 1, 2}}) writer.append(row);
+    checksum_up_to_there = writer.checksum();
+    writer.append(Row{0.3, 1, 2});
+  }
   put(file, content(file) + "0.4,1");
   {
-    auto writer = HistoryWriter::resume(file, columns, 0.2);
+    auto writer = HistoryWriter::resume(file, columns, 0.2, checksum_up_to_there);
     writer.append(Row{0.25, 3, 4});
   }
   const auto read = read_history(file);
   CHECK_FALSE(read.torn_line);
   CHECK(read.history.rows == std::vector<Row>{{0, 1, 2}, {0.1, 1, 2}, {0.2, 1, 2}, {0.25, 3, 4}});
-  CHECK_THROWS_WITH(HistoryWriter::resume(file, columns, 0.22), Contains("no row at 0.22 s"));
-  CHECK_THROWS_WITH(HistoryWriter::resume(file, {"time", "B.PorePressure"}, 0.2), Contains("columns"));
-  CHECK_THROWS_AS(HistoryWriter::resume(folder / "none.csv", columns, 0), ReadError);
+  CHECK_THROWS_WITH(HistoryWriter::resume(file, columns, 0.22, checksum_up_to_there),
+                    Contains("no row at 0.22 s"));
+  CHECK_THROWS_WITH(HistoryWriter::resume(file, {"time", "B.PorePressure"}, 0.2, checksum_up_to_there),
+                    Contains("columns"));
+  CHECK_THROWS_AS(HistoryWriter::resume(folder / "none.csv", columns, 0, 0), ReadError);
+}
+
+TEST_CASE("a history that was changed is not resumed, and left as it is") {
+  const TemporaryFolder folder;
+  const auto file = folder / "history.csv";
+  std::uint32_t checksum = 0;
+  {
+    HistoryWriter writer(file, columns);
+    for (const Row& row : {Row{0, 1, 2}, Row{0.1, 1, 2}, Row{0.2, 1, 2}}) writer.append(row);
+    checksum = writer.checksum();
+  }
+  const std::string sound = content(file);
+  const auto check_refused = [&](const std::string& changed) {
+    CAPTURE(changed);
+    REQUIRE(changed != sound);
+    put(file, changed);
+    CHECK_THROWS_AS(HistoryWriter::resume(file, columns, 0.2, checksum), ReadError);
+    CHECK(content(file) == changed);
+  };
+  for (const auto& [old, edited] : {std::pair{"0.10000000000000001,1,2\n", "0.10000000000000001,1,2.5\n"},
+                                    {"0.10000000000000001,1,2\n", ""},  // a row that is missing
+                                    {"0.10000000000000001,1,2\n", "0.05,1,2\n0.10000000000000001,1,2\n"},
+                                    {"A.PorePressure", "A.Pressure"},
+                                    {"0.20000000000000001,1,2\n", ""}}) {
+    std::string changed = sound;
+    changed.replace(changed.find(old), std::string(old).size(), edited);
+    check_refused(changed);
+  }
+  put(file, sound);
+  CHECK(HistoryWriter::resume(file, columns, 0.2, checksum).checksum() == checksum);
 }
 
 TEST_CASE("a file cut anywhere after its first line reads, and tells what was torn") {

@@ -152,11 +152,14 @@ TEST_CASE("a new series takes the place of an older, longer one, and leaves othe
 
 TEST_CASE("a resumed series goes on after the given time") {
   const TemporaryFolder folder;
+  std::vector<std::uint32_t> checksums;
   {
     SeriesWriter series(folder.path());
-    for (const double time : {0.0, 0.1, 0.2, 0.3}) series.write(example_frame(time));
+    for (const double time : {0.0, 0.1}) series.write(example_frame(time));
+    checksums = series.checksums();
+    for (const double time : {0.2, 0.3}) series.write(example_frame(time));
   }
-  auto series = SeriesWriter::resume(folder.path(), 0.1);
+  auto series = SeriesWriter::resume(folder.path(), 0.1, checksums);
   CHECK(read_pvd(series.pvd()).size() == 2);
   CHECK(names_in(folder / "frames").size() == 2);
   series.write(example_frame(0.15, 9));
@@ -165,8 +168,42 @@ TEST_CASE("a resumed series goes on after the given time") {
   CHECK(frames[2].time == 0.15);
   CHECK(frames[2].file == "frames/particles_000002.vtp");
   CHECK(seen_by_vtk<vtkXMLPolyDataReader>(folder / frames[2].file)->GetNumberOfPoints() == 9);
-  CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.12), Contains("no frame at 0.12 s"));
-  CHECK_THROWS_AS(SeriesWriter::resume(folder / "none", 0), ReadError);
+  CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.12, checksums), Contains("no frame at 0.12 s"));
+  CHECK_THROWS_AS(SeriesWriter::resume(folder / "none", 0, {}), ReadError);
+}
+
+TEST_CASE("a series that was changed is not resumed") {
+  const TemporaryFolder folder;
+  SeriesWriter series(folder.path());
+  for (const double time : {0.0, 0.1, 0.2}) series.write(example_frame(time));
+  const auto checksums = series.checksums();
+  const auto frame = folder / "frames/particles_000001.vtp";
+  const std::string sound = content(frame), pvd = content(series.pvd());
+  SECTION("an edited frame") {
+    std::string edited = sound;
+    edited[edited.size() / 2] = static_cast<char>(edited[edited.size() / 2] ^ 1);
+    put(frame, edited);
+    CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.2, checksums),
+                      Contains("particles_000001.vtp: it is not the file that the run wrote"));
+  }
+  SECTION("a cut frame") {
+    put(frame, sound.substr(0, sound.size() - 1));
+    CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.2, checksums), Contains("particles_000001.vtp"));
+  }
+  SECTION("a frame that is gone") {
+    std::filesystem::remove(frame);
+    CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.2, checksums), Contains("particles_000001.vtp"));
+  }
+  SECTION("a frame that is not listed any more") {
+    auto frames = series.frames();
+    frames.erase(frames.begin() + 1);
+    put(series.pvd(), pvd_text(frames));
+    CHECK_THROWS_WITH(SeriesWriter::resume(folder.path(), 0.2, checksums),
+                      Contains("it names 2 files up to 0.2 s, and the run wrote 3"));
+    CHECK(names_in(folder / "frames").size() == 3);
+  }
+  put(frame, sound), put(series.pvd(), pvd);
+  CHECK(SeriesWriter::resume(folder.path(), 0.2, checksums).frames().size() == 3);
 }
 
 TEST_CASE("frames that are not consistent are refused, and the series goes on") {
@@ -221,12 +258,15 @@ TEST_CASE("a disk that is full at the last byte is noticed") {
 
 TEST_CASE("the boundary is a second block of the same times, kept and removed with its frames") {
   const TemporaryFolder folder;
+  std::vector<std::uint32_t> checksums;
   {
     SeriesWriter series(folder.path());
-    for (const double time : {0.0, 0.1, 0.2}) series.write(example_frame(time), example_frame(time, 7));
+    for (const double time : {0.0, 0.1}) series.write(example_frame(time), example_frame(time, 7));
+    checksums = series.checksums();
+    series.write(example_frame(0.2), example_frame(0.2, 7));
   }
   CHECK(std::filesystem::exists(folder / "frames/boundary_000002.vtp"));
-  const auto series = SeriesWriter::resume(folder.path(), 0.1);
+  const auto series = SeriesWriter::resume(folder.path(), 0.1, checksums);
   CHECK_FALSE(std::filesystem::exists(folder / "frames/boundary_000002.vtp"));
   const auto frames = read_pvd(series.pvd());
   REQUIRE(frames.size() == 2);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "solver/printable.hpp"
 #include "tests/unit/solver/case/case_text.hpp"
 
 using namespace porosph;
@@ -159,6 +160,26 @@ TEST_CASE("keys nested so deeply that reading them would use up the stack") {
   CHECK_THAT(errors_of(with("[[0, 0], [4, 0], [4, 2]", numbers)), !Contains("dots"));
 }
 
+TEST_CASE("text that a terminal obeys is refused, and told without it") {
+  const auto title = [](const std::string& text) { return errors_of(with("\"Box\"", "\"" + text + "\"")); };
+  CHECK(title("Böschung, σ'yy").empty());
+  for (const auto& [text, name] : {std::pair{"\\u001b[2J", "U+001B"},
+                                   {"a\\nb", "U+000A"},
+                                   {"\\t", "U+0009"},
+                                   {"\\u009b31m", "U+009B"},
+                                   {"\\u202e", "U+202E"},
+                                   {"\\u007f", "U+007F"}}) {
+    CAPTURE(text);
+    const std::string errors = title(text);
+    CHECK_THAT(errors, StartsWith("box.toml:1:9: key 'title' = ") &&
+                           Contains(std::string("must not hold control characters, but has ") + name));
+    CHECK(control_character(errors).empty());
+  }
+  const std::string of_key = errors_with("\"\\u001b[31mend\" = 2\n");
+  CHECK_THAT(of_key, Contains("key 'time.[U+001B][31mend': is not known"));
+  CHECK(control_character(of_key).empty());
+}
+
 TEST_CASE("a file with very many errors tells the first") {
   std::string many;
   for (int i = 0; i < 300; ++i) many += fmt::format("x{} = 1\n", i);
@@ -170,9 +191,9 @@ TEST_CASE("a file with very many errors tells the first") {
 
 TEST_CASE("files that cannot be read") {
   CHECK_THROWS_WITH(read_case("no/such/case.toml"),
-                    "no/such/case.toml: is no file that can be read: No such file or directory");
+                    "no/such/case.toml: is not a readable file: No such file or directory");
   const auto folder = std::filesystem::temp_directory_path();
-  CHECK_THROWS_WITH(read_case(folder), folder.string() + ": is no file that can be read");
+  CHECK_THROWS_WITH(read_case(folder), folder.string() + ": is not a readable file");
   const auto file = folder / "porosph_too_large.toml";
   std::ofstream(file) << "#";
   std::filesystem::resize_file(file, (16 << 20) + 1);

@@ -47,7 +47,7 @@ TEST_CASE("errors name the override that brings them") {
         "override 'water.lvl=3': key 'water.lvl' = 3: is not known; did you mean 'level'?");
   CHECK(
       errors("probe=[{name='C', pos=1}]") ==
-      "override 'probe=[{name='C', pos=1}]': key 'probe[0].position': is missing: At the start; the probe "
+      "override 'probe=[{name='C', pos=1}]': key 'probe[0].position': is missing: Position at the start; the probe "
       "then moves "
       "with the soil.\n"
       "override 'probe=[{name='C', pos=1}]': key 'probe[0].pos' = 1: is not known; known are name, position");
@@ -66,13 +66,13 @@ TEST_CASE("overrides that cannot be understood") {
   CHECK(errors("time..end=1") ==
         "override 'time..end=1': the key must be a dotted path, as particles.spacing");
   CHECK(errors("=1") == "override '=1': the key must be a dotted path, as particles.spacing");
-  CHECK(errors("time.end=[1").starts_with("override 'time.end=[1': the value is no TOML: "));
-  CHECK(errors("time.end=").starts_with("override 'time.end=': the value is no TOML: "));
+  CHECK(errors("time.end=[1").starts_with("override 'time.end=[1': the value is not TOML: "));
+  CHECK(errors("time.end=").starts_with("override 'time.end=': the value is not TOML: "));
   CHECK(errors("time.end=1\nb=2") == "override 'time.end=1\nb=2': the value must be one line");
-  CHECK(errors("time.end.x=1") == "override 'time.end.x=1': 'time.end' is no table");
+  CHECK(errors("time.end.x=1") == "override 'time.end.x=1': 'time.end' is not a table");
   CHECK(errors("probe.C.name=D") ==
-        "override 'probe.C.name=D': there is no probe 'C'; there are 2 ('A', 'B')");
+        "override 'probe.C.name=D': there is no probe 'C'; the case has 'A', 'B'");
   CHECK(errors("probe.2.name=D") ==
-        "override 'probe.2.name=D': there is no probe '2'; there are 2 ('A', 'B')");
+        "override 'probe.2.name=D': there is no probe '2'; the case has 'A', 'B'");
   CHECK(errors("probe.A=1") == "override 'probe.A=1': 'probe' is a list: name one of it ('A', 'B')");
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "solver/monitor/energy.hpp"
 #include "solver/monitor/instability.hpp"
@@ -125,4 +126,17 @@ TEST_CASE("a column that swings in still water keeps its energy, but for what it
   scene.time.end = 0.3;
   const Balance fine = balance(scene);
   CHECK(fine.off / fine.exchanged < 0.4 * coarse.off / coarse.exchanged);
+}
+
+TEST_CASE("unbalanced forces count by mass, over the weight of all", "[monitor]") {
+  Model model = build_model(box_of_soil(2, 1));
+  model.particles.mass = {1, 3};
+  model.gravity = Vec2(0, -10);
+  const std::vector<Vec2> accelerations = {Vec2(3, 4), Vec2(0, -2)};
+  // forces of 5 and 6 N, weights of 10 and 30 N
+  CHECK(unbalanced_force_ratio(model, accelerations) == Approx(std::sqrt((25. + 36) / (100 + 900))));
+  model.gravity = Vec2(6, -8);  // of the same size
+  CHECK(unbalanced_force_ratio(model, accelerations) == Approx(std::sqrt((25. + 36) / (100 + 900))));
+  model.gravity = Vec2::Zero();
+  CHECK(std::isinf(unbalanced_force_ratio(model, accelerations)));
 }

@@ -74,6 +74,20 @@ TEST_CASE("relaxation weighs vibrations by their energy and forgets those that d
   CHECK(relaxation.damping == Approx(2 * 2).epsilon(1e-3));
 }
 
+TEST_CASE("relaxation remembers the last 1 / omega", "[relaxation]") {
+  const double dt = 1e-2, before = 7, now = 3;
+  Springs first, second;
+  first.add(before, {0.3, -0.2}, dt);
+  second.add(now, {0.3, -0.2}, dt);
+  Relaxation relaxation;
+  relaxation.measure(first.bodies, first.before, first.after, dt);
+  relaxation.measure(second.bodies, second.before, second.after, dt);
+  // what was measured five steps ago has faded by exp(-omega * 5 dt)
+  const double kept = std::exp(-before * 5 * dt);
+  const double omega_squared = (kept * before * before + now * now) / (kept + 1);
+  CHECK(relaxation.damping == Approx(2 * std::sqrt(omega_squared)).epsilon(1e-10));
+}
+
 TEST_CASE("relaxation stays finite at rest, where a body softens, and where it is too stiff",
           "[relaxation]") {
   const double dt = 1e-2;
