@@ -185,8 +185,10 @@ FinishedRun run_of(const std::string& folder, const std::vector<double>& times, 
   run.folder = folder;
   run.name = folder;
   for (const double time : times) run.series.frames.push_back({.time = time, .file = ""});
-  run.summary =
-      Summary{.status = status, .title = "", .formulation = "", .time = times.back(), .time_step = time_step};
+  run.summary.emplace();
+  run.summary->status = status;
+  run.summary->time = times.back();
+  run.summary->time_step = time_step;
   return run;
 }
 
@@ -240,7 +242,9 @@ TEST_CASE("a subtitle does not repeat the title") {
 
 TEST_CASE("soils are categories by their names") {
   Case scene;
-  scene.soils = {{.name = "clay"}, {.name = "sand"}};
+  scene.soils.resize(2);
+  scene.soils[0].name = "clay";
+  scene.soils[1].name = "sand";
   const ColourScale scale = scale_of({"SoilId", ""}, {"", 1}, scene, std::nullopt);
   CHECK(scale.categories == std::vector<std::string>{"clay", "sand"});
   const std::vector<double> values = {0, 1, 0};
@@ -252,7 +256,8 @@ TEST_CASE("soils are categories by their names") {
 TEST_CASE("with the soil's deformation drawn larger, its outline and probes move along") {
   Case scene;
   scene.particles.spacing = 0.5;
-  scene.soils = {{.name = "s", .polygon = {{0, 0}, {4, 0}, {4, 2}, {0, 2}}}};
+  scene.soils.resize(1);
+  scene.soils[0].polygon = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};
   ContourPanel panel;
   panel.scenery = scenery_of(scene);
   panel.scenery.probes = {{"A", {1, 1}}};
