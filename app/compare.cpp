@@ -7,7 +7,9 @@
 #include "app/command.hpp"
 #include "app/left_out.hpp"
 #include "app/numbers.hpp"
+#include "app/range.hpp"
 #include "render/report/comparison.hpp"
+#include "render/run/frame_pair.hpp"
 #include "vtk_io/paraview_script.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
@@ -18,9 +20,10 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::vector<std::string> runs, fields, left_out;
-  std::string fem, out, time;
+  std::vector<std::string> runs, labels, fields, left_out;
+  std::string fem, out, time, range, difference_range;
   double deformation = 1;
+  bool different_times = false;
 };
 
 std::optional<Options> read_options(const Arguments& arguments) {
@@ -35,6 +38,14 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "field to draw; may be given again (default: EffectiveStress:YY, TotalStress:YY, Displacement:Y)")(
       "time", po::value(&o.time)->value_name("T|last|common")->default_value("last"),
       "the frames nearest to T seconds, the last ones, or those of the last time that both runs have")(
+      "allow-different-times", po::bool_switch(&o.different_times),
+      "compare also where the times differ by more than a time step and neither run is at rest")(
+      "label", po::value(&o.labels)->value_name("TEXT"),
+      "what to call a run; given twice, in the order of the runs (default: the folder's "
+      "name)")("range", po::value(&o.range)->value_name("LOW,HIGH"),
+               "of the runs' colours, in the unit of the colour bar (default: all values, rounded)")(
+      "difference-range", po::value(&o.difference_range)->value_name("LOW,HIGH"),
+      "of the differences' colours, in the unit of the bar (default: each picture's own)")(
       "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
       "displacements are drawn this many times")(
       "out", po::value(&o.out)->value_name("DIR")->default_value("results/compare"),
@@ -53,34 +64,19 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-bool at_rest(const FinishedRun& run) { return run.summary && run.summary->status == RunStatus::equilibrium; }
-
-struct FramePair {
-  std::size_t a, b;
-};
-
-FramePair choose_frames(const FinishedRun& a, const FinishedRun& b, const std::string& time) {
-  const double end_a = a.series.frames.back().time, end_b = b.series.frames.back().time;
-  if (time == "common") {
-    const double end = std::min(end_a, end_b);
-    return {frame_at(a.series, end), frame_at(b.series, end)};
-  }
-  if (time != "last") {
-    const double t = read_number("--time", time);
-    return {frame_at(a.series, t), frame_at(b.series, t)};
-  }
-  if (std::abs(end_a - end_b) > 1e-6 * std::max(end_a, end_b) && !(at_rest(a) || at_rest(b)))
-    throw std::runtime_error(
-        fmt::format("{} ends at {:g} s and {} at {:g} s, neither at rest: choose --time common, or a time",
-                    a.folder.string(), end_a, b.folder.string(), end_b));
-  return {a.series.frames.size() - 1, b.series.frames.size() - 1};
+FramePair choose_frames(const FinishedRun& a, const FinishedRun& b, const Options& o) {
+  if (o.time == "common") return common_frames(a, b);
+  const FramePair frames =
+      o.time == "last" ? last_frames(a, b) : frames_at(a, b, read_number("--time", o.time));
+  if (!o.different_times) require_fair(a, b, frames);
+  return frames;
 }
 
 void print(const std::string& heading, const std::vector<FieldNorms>& all) {
   if (all.empty()) return;
-  fmt::print("{}\n  {:20} {:>18}   {}\n", heading, "field", "relative L2", "largest difference");
+  fmt::print("{}\n  {:28} {:>18}   {}\n", heading, "field", "relative L2", "largest difference");
   for (const FieldNorms& n : all)
-    fmt::print("  {:20} {:>18}   {}\n", n.field.text(), relative_text(n.relative_l2), largest_text(n));
+    fmt::print("  {:28} {:>18}   {}\n", shown_name(n.field), relative_text(n.relative_l2), largest_text(n));
 }
 
 }  // namespace
@@ -88,18 +84,23 @@ void print(const std::string& heading, const std::vector<FieldNorms>& all) {
 int compare_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
-  ComparisonChoice choice{
-      .pictures = {}, .deformation = o->deformation, .left_out = read_left_out(o->left_out)};
+  ComparisonChoice choice{.pictures = {},
+                          .deformation = o->deformation,
+                          .range = read_range("--range", o->range),
+                          .difference_range = read_range("--difference-range", o->difference_range),
+                          .left_out = read_left_out(o->left_out)};
   for (const std::string& field : o->fields) choice.pictures.push_back(parse_selection(field));
-  const FinishedRun a = open_run(o->runs[0]), b = open_run(o->runs[1]);
+  std::vector<FinishedRun> runs = {open_run(o->runs[0]), open_run(o->runs[1])};
+  set_labels(runs, o->labels);
+  const FinishedRun &a = runs[0], &b = runs[1];
   std::optional<FemReference> fem;
   if (!o->fem.empty()) fem.emplace(o->fem);
-  const FramePair frames = choose_frames(a, b, o->time);
+  const FramePair frames = choose_frames(a, b, *o);
   const Comparison c = compare_runs(a, frames.a, b, frames.b, fem, choice, o->out);
-  const std::vector<std::string> labels = run_labels({a, b});
+  const std::vector<std::string> labels = run_labels(runs);
   write_norms(c, labels[0], labels[1], o->out);
-  fmt::print("{} at {:g} s and {} at {:g} s, {} points, {}\n", labels[0], c.time_a, labels[1], c.time_b,
-             c.points,
+  fmt::print("{} at {:.6g} s and {} at {:.6g} s{}, {} points, {}\n", labels[0], c.time_a, labels[1], c.time_b,
+             is_fair(a, b, frames) ? "" : ", times that differ", c.points,
              c.particle_by_particle ? "particle by particle" : "interpolated, exact for linear fields");
   print(fmt::format("{} against {}", labels[0], labels[1]), c.a_against_b);
   print(labels[0] + " against finite elements", c.a_against_fem);

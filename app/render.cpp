@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/numbers.hpp"
+#include "app/range.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/shown_field.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -19,7 +20,7 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string series, field, time, out, range, map;
+  std::string series, label, field, time, out, range, map;
   double deformation = 1;
   int width = 0, height = 0;
 };
@@ -32,6 +33,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "e.g. EffectiveStress:YY, PorePressure; a vector without component: its magnitude")(
       "time", po::value(&o.time)->value_name("T|last|all")->default_value("last"),
       "the frame nearest to T seconds, the last frame, or a picture of every frame")(
+      "label", po::value(&o.label)->value_name("TEXT"),
+      "what to call the run in the picture (default: nothing)")(
       "out", po::value(&o.out)->value_name("FILE.png"),
       "the picture (default: beside the series, named by the field)")(
       "range", po::value(&o.range)->value_name("LOW,HIGH"),
@@ -67,16 +70,6 @@ ColourMap read_map(const std::string& name, const FieldSelection& selection) {
   throw UsageError(fmt::format("--map = {}: must be viridis, cividis or cool_warm", name));
 }
 
-std::optional<ValueRange> read_range(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const auto comma = text.find(',');
-  if (comma == std::string::npos) throw UsageError(fmt::format("--range = {}: must be LOW,HIGH", text));
-  const ValueRange range{read_number("--range", text.substr(0, comma)),
-                         read_number("--range", text.substr(comma + 1))};
-  if (range.low >= range.high) throw UsageError(fmt::format("--range = {}: LOW must be below HIGH", text));
-  return range;
-}
-
 std::vector<std::size_t> choose_frames(const Series& series, const std::string& time) {
   if (time == "last") return {series.frames.size() - 1};
   if (time != "all") return {frame_at(series, read_number("--time", time))};
@@ -94,15 +87,21 @@ fs::path picture_path(const Options& o, const FinishedRun& run, const FieldSelec
   return path;
 }
 
-/// Lowest and highest of several frames, so that their pictures share unit and colours.
-ValueRange extent_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
-                     const FieldSelection& selection) {
-  std::vector<double> ends;
+/// What the frames to be drawn span: all of it, and what the range of colours is made of.
+struct Spread {
+  double largest = 0;  ///< absolute
+  std::vector<ValueRange> extents;
+};
+
+Spread spread_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
+                 const FieldSelection& selection) {
+  Spread spread;
   for (std::size_t frame : frames) {
-    const ValueRange r = finite_extent(values_of(frame_of(run, frame), selection));
-    if (r.low <= r.high) ends.insert(ends.end(), {r.low, r.high});
+    const std::vector<double> values = values_of(frame_of(run, frame), selection);
+    spread.largest = std::max(spread.largest, largest_of(values));
+    spread.extents.push_back(robust_extent(values));
   }
-  return finite_extent(ends);
+  return spread;
 }
 
 }  // namespace
@@ -111,22 +110,21 @@ int render_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
   const FieldSelection selection = parse_selection(o->field);
-  const FinishedRun run = open_run(o->series);
+  FinishedRun run = open_run(o->series);
+  if (!o->label.empty()) run.label = o->label;
   const std::vector<std::size_t> frames = choose_frames(run.series, o->time);
-  const ValueRange extent = extent_of(run, frames, selection);
-  const ShownUnit unit = shown_unit(selection.name, std::max(std::abs(extent.low), std::abs(extent.high)));
-  ColourScale scale{shown_label(selection, unit), read_map(o->map, selection), read_range(o->range)};
-  if (!scale.range && extent.low <= extent.high) {
-    const ValueRange shown{extent.low * unit.factor, extent.high * unit.factor};
-    scale.range = is_diverging(scale.map) ? centred_range(shown) : rounded_range(shown);
-  }
+  Spread spread = spread_of(run, frames, selection);
+  const ShownUnit unit = shown_unit(selection.name, spread.largest);
+  for (ValueRange& e : spread.extents) e = {e.low * unit.factor, e.high * unit.factor};
+  ColourScale scale = scale_of(selection, unit, run.scene, read_range("--range", o->range));
+  scale.map = read_map(o->map, selection);
+  if (!scale.range) scale.range = range_of_instants(spread.extents, scale.map);
   for (std::size_t i : frames) {
     const Frame frame = frame_of(run, i);
     ContourPanel panel =
         panel_of(run, frame, scaled(values_of(frame, selection), unit.factor), o->deformation);
-    panel.title = shown_name(selection);
-    panel.subtitle = time_text(run.series.frames[i].time);
-    if (run.scene) panel.subtitle += ", " + formulation_text(run);
+    panel.title = shown_name(selection) + (run.label.empty() ? "" : ", " + run.label);
+    panel.subtitle = panel_subtitle(run, run.series.frames[i].time, run.label);
     if (o->deformation != 1) panel.subtitle += fmt::format(", displacements × {:g}", o->deformation);
     const fs::path path = picture_path(*o, run, selection, i);
     if (path.has_parent_path()) make_folder(path.parent_path());

@@ -17,7 +17,7 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::vector<std::string> runs, left_out, thresholds;
+  std::vector<std::string> runs, labels, left_out, thresholds;
   std::string fem, out;
 };
 
@@ -27,8 +27,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
   options.add_options()(
       "run", po::value(&o.runs)->required(),
       "folders of runs of one body, and of studies that go with them (porosph bench, stability)")(
-      "fem", po::value(&o.fem)->value_name("DIR"),
-      "also against the finite-element reference in this folder")(
+      "label", po::value(&o.labels)->value_name("TEXT"),
+      "what to call a run; given once for each run, in their order (default: the folder's "
+      "name)")("fem", po::value(&o.fem)->value_name("DIR"),
+               "also against the finite-element reference in this folder")(
       "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
       "place [m] that does not count against finite elements, such as a toe; may be given again")(
       "fail-if", po::value(&o.thresholds)->value_name("PATH>NUMBER"),
@@ -66,6 +68,7 @@ int report_command(const Arguments& arguments) {
   if (input.runs.empty())
     throw UsageError(fmt::format("no run among the folders; the page of a study alone is {}",
                                  (fs::path(o->runs.front()) / "index.html").string()));
+  set_labels(input.runs, o->labels);
   if (!o->fem.empty()) input.fem.emplace(o->fem);
   const std::vector<std::string> failed = write_report(input, o->out);
   fmt::print("{}\n", (fs::path(o->out) / "index.html").string());

@@ -42,15 +42,50 @@ void apply(vtkBrush& brush, const Fill& fill) {
   brush.SetOpacityF(fill.opacity);
 }
 
-}  // namespace
+constexpr double subscript_size = 0.74, subscript_drop = 0.26, subscript_gap = 0.06;  // of the text's size
 
-Pixel text_extent(const std::string& text, double size) {
+struct TextPart {
+  std::string text;
+  bool lowered = false;
+};
+
+/// The pieces before, within and after each "_{...}".
+std::vector<TextPart> parts_of(const std::string& text) {
+  std::vector<TextPart> parts;
+  std::size_t begin = 0;
+  for (std::size_t open; (open = text.find("_{", begin)) != std::string::npos;) {
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) break;
+    if (open > begin) parts.push_back({text.substr(begin, open - begin)});
+    parts.push_back({text.substr(open + 2, close - open - 2), true});
+    begin = close + 1;
+  }
+  if (begin < text.size() || parts.empty()) parts.push_back({text.substr(begin)});
+  return parts;
+}
+
+double part_size(const TextPart& part, double size) { return part.lowered ? subscript_size * size : size; }
+
+Pixel plain_extent(const std::string& text, double size) {
   constexpr double fine = 8;  // measured large, so that whole device pixels do not round the answer
   vtkNew<vtkTextProperty> property;
   apply(*property, {.size = size}, fine);
   int bounds[4] = {0, 0, 0, 0};
   vtkTextRenderer::GetInstance()->GetBoundingBox(property, vtkStdString(text), bounds, 72);
   return {(bounds[1] - bounds[0]) / fine, (bounds[3] - bounds[2]) / fine};
+}
+
+}  // namespace
+
+Pixel text_extent(const std::string& text, double size) {
+  Pixel extent;
+  const std::vector<TextPart> parts = parts_of(text);
+  for (const TextPart& part : parts) {
+    const Pixel box = plain_extent(part.text, part_size(part, size));
+    extent.x += box.x + (parts.size() > 1 ? subscript_gap * size : 0);
+    extent.y = std::max(extent.y, box.y);
+  }
+  return extent;
 }
 
 double fitting_size(const std::string& text, double size, double width) {
@@ -145,11 +180,38 @@ void Canvas::disc(Pixel centre, double radius, const Fill& fill, const Pen& edge
   line(circle, edge);
 }
 
-void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
+void Canvas::plain_text(Pixel at, const std::string& text, const TextStyle& style) {
   if (text.empty()) return;
   apply(*context_.GetTextProp(), style, scale_);
   context_.DrawString(static_cast<float>(at.x * scale_), static_cast<float>(at.y * scale_),
                       vtkStdString(printable_lines(text)));
+}
+
+void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
+  if (style.halo) {
+    TextStyle rim = style;
+    rim.halo = false;
+    rim.colour = white;
+    for (const double dx : {-1.5, 0., 1.5})
+      for (const double dy : {-1.5, 0., 1.5})
+        if (dx != 0 || dy != 0) this->text({at.x + dx, at.y + dy}, text, rim);
+  }
+  const std::vector<TextPart> parts = parts_of(text);
+  if (parts.size() == 1 && !parts[0].lowered) return plain_text(at, text, style);
+  const double length = text_extent(text, style.size).x;
+  double done = style.horizontal == Align::low      ? 0
+                : style.horizontal == Align::centre ? -0.5 * length
+                                                    : -length;
+  for (const TextPart& part : parts) {
+    TextStyle own = style;
+    own.size = part_size(part, style.size);
+    own.horizontal = Align::low;
+    own.halo = false;
+    const double drop = part.lowered ? subscript_drop * style.size : 0;
+    plain_text(style.upright ? Pixel{at.x + drop, at.y + done} : Pixel{at.x + done, at.y - drop}, part.text,
+               own);
+    done += text_extent(part.text, own.size).x + subscript_gap * style.size;
+  }
 }
 
 void Canvas::clip(const Box& box) {

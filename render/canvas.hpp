@@ -42,7 +42,10 @@ struct TextStyle {
   Colour colour = black;
   Align horizontal = Align::centre, vertical = Align::centre;
   bool upright = false;  ///< turned by 90 degrees, read from below
+  bool halo = false;     ///< a white rim, to be read on any colour
 };
+
+/// Texts may hold subscripts, "σ'_{yy}": drawn smaller and lower, without the signs around them.
 
 /// Width and height of the text when drawn horizontally [pixels].
 Pixel text_extent(const std::string& text, double size);
@@ -72,6 +75,7 @@ class Canvas {
   void unclip();
 
  private:
+  void plain_text(Pixel at, const std::string& text, const TextStyle& style);
   void solid_line(std::span<const Pixel> points);
   std::vector<float> device(std::span<const Pixel> points) const;
 

@@ -78,6 +78,7 @@ struct ChartPlan {
   Plot plot;
   std::vector<LegendEntry> entries;
   Box legend;
+  bool legend_is_aside = false;
 };
 
 FrameMargins margins_of(const Chart& chart, const Box& cell) {
@@ -100,22 +101,27 @@ Plot plot_in(const Chart& chart, const Box& cell, const FrameMargins& margins) {
   return plot;
 }
 
-/// The legend goes into a corner without data, or else to the right of the frame.
-ChartPlan plan(const Chart& chart, const Box& cell, FrameMargins margins) {
+/// The legend goes into a corner without data, or else to the right of the frame, where `aside` is the room
+/// for it [pixels]; 0: not decided yet.
+ChartPlan plan(const Chart& chart, const Box& cell, FrameMargins margins, double aside) {
   ChartPlan result{plot_in(chart, cell, margins), legend_of(chart), {}};
   const Pixel extent = legend_extent(result.entries);
-  if (const auto corner = free_corner(result.plot.box, extent, all_lines(chart, result.plot))) {
-    result.legend = *corner;
-  } else {
-    margins.right += extent.x + legend_gap;
-    result.plot = plot_in(chart, cell, margins);
-    const Box& frame = result.plot.box;
-    result.legend = {cell.right() - extent.x, frame.top() - extent.y, extent.x, extent.y};
-  }
+  if (aside == 0)
+    if (const auto corner = free_corner(result.plot.box, extent, all_lines(chart, result.plot))) {
+      result.legend = *corner;
+      return result;
+    }
+  margins.right += std::max(aside, extent.x + legend_gap);
+  result.plot = plot_in(chart, cell, margins);
+  const Box& frame = result.plot.box;
+  result.legend = {frame.right() + margins.right - std::max(aside, extent.x + legend_gap) + legend_gap,
+                   frame.top() - extent.y, extent.x, extent.y};
+  result.legend_is_aside = true;
   return result;
 }
 
-/// The frames of charts above each other start at the same x.
+/// The frames of charts above each other start at the same x, and end at the same x: where one has its legend
+/// beside it, all have.
 std::vector<ChartPlan> plan_all(const ChartFigure& figure, int columns, const std::vector<Box>& cells) {
   const std::size_t count = cells.size();
   std::vector<FrameMargins> margins;
@@ -125,7 +131,18 @@ std::vector<ChartPlan> plan_all(const ChartFigure& figure, int columns, const st
     FrameMargins aligned = margins[i];
     for (std::size_t k = i % columns; k < count; k += columns)
       aligned.left = std::max(aligned.left, margins[k].left);
-    plans.push_back(plan(figure.charts[i], cells[i], aligned));
+    margins[i] = aligned;
+    plans.push_back(plan(figure.charts[i], cells[i], aligned, 0));
+  }
+  for (int column = 0; column < columns; ++column) {
+    double aside = 0;
+    bool any = false;
+    for (std::size_t i = column; i < count; i += columns) {
+      any = any || plans[i].legend_is_aside;
+      aside = std::max(aside, legend_extent(plans[i].entries).x + legend_gap);
+    }
+    for (std::size_t i = column; any && i < count; i += columns)
+      plans[i] = plan(figure.charts[i], cells[i], margins[i], aside);
   }
   return plans;
 }
@@ -134,6 +151,20 @@ void draw_series(Canvas& canvas, const ChartSeries& series, const Pen& pen, cons
   for (const auto& line : lines_of(series, plot)) {
     if (series.line != LineStyle::none) canvas.line(line, pen);
     for (const Pixel& point : line) draw_marker(canvas, point, series.marker, pen.colour);
+  }
+}
+
+/// After the clipping, so that marks on the frame are whole.
+void draw_end(Canvas& canvas, const ChartSeries& series, const Pen& pen, const Plot& plot) {
+  constexpr double reach = 6;
+  const auto lines = lines_of(series, plot);
+  if (series.end == LineEnd::plain || lines.back().empty()) return;
+  const Pixel at = lines.back().back();
+  if (at.x < plot.box.x || at.x > plot.box.right() || at.y < plot.box.y || at.y > plot.box.top()) return;
+  if (series.end == LineEnd::stopped) return draw_marker(canvas, at, Marker::circle, pen.colour);
+  for (const Pen& stroke : {Pen{.colour = white, .width = 5}, Pen{.colour = pen.colour, .width = 2.5}}) {
+    canvas.line({at.x - reach, at.y - reach}, {at.x + reach, at.y + reach}, stroke);
+    canvas.line({at.x - reach, at.y + reach}, {at.x + reach, at.y - reach}, stroke);
   }
 }
 
@@ -147,6 +178,8 @@ void draw_chart(Canvas& canvas, const Chart& chart, const ChartPlan& plan) {
     draw_series(canvas, chart.series[i], pen_of(chart.series[i], i), plan.plot);
   canvas.unclip();
   draw_frame(canvas, plan.plot);
+  for (std::size_t i = chart.series.size(); i-- > 0;)
+    draw_end(canvas, chart.series[i], pen_of(chart.series[i], i), plan.plot);
   canvas.text({frame.x, frame.top() + 8}, chart.title,
               {.size = fitting_size(chart.title, chart_title_text, frame.width),
                .horizontal = Align::low,

@@ -11,6 +11,13 @@
 
 namespace porosph {
 
+/// How a line ends.
+enum class LineEnd {
+  plain,
+  stopped,  ///< a dot: there is no more, and none is missing
+  broken,   ///< a cross: what it shows broke down there
+};
+
 /// Points in order. Where a value is not finite (or not positive on a logarithmic axis) the line is
 /// interrupted.
 struct ChartSeries {
@@ -20,6 +27,7 @@ struct ChartSeries {
   LineStyle line = LineStyle::solid;
   Marker marker = Marker::none;
   double width = 2;  ///< [pixels]
+  LineEnd end = LineEnd::plain;
 };
 
 /// A horizontal line across the chart, such as a theoretical value.

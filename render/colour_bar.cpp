@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,8 +13,15 @@ namespace {
 
 constexpr double bar_width = 18, tick_length = 5, label_gap = 5, title_gap = 8, point_height = 14;
 constexpr double swatch = 12, swatch_gap = 16;
+constexpr double longest_name = 160;  // of a category; longer ones are drawn smaller
 constexpr int colour_count = 256;
 const std::string invalid_label = "no value";
+
+/// What stands beside a pointed end, how far values go: "to −205".
+std::string reach_text(double value) {
+  const std::string number = fmt::format("{:.3g}", std::abs(value));
+  return (value < 0 ? "to −" : "to ") + number;
+}
 
 Axis axis_of(const FixedScale& scale) { return {scale.range.low, scale.range.high, false, scale.label}; }
 
@@ -34,6 +42,36 @@ Box straight_part(const Box& box, const FixedScale& scale) {
   bar.y += below;
   bar.height -= below + (scale.values_above ? point_height : 0);
   return bar;
+}
+
+/// Low end first. Brown to green, pale enough for lines and names on them.
+Colour category_colour(std::size_t i) {
+  static constexpr std::array<Colour, 8> colours = {{{222, 200, 150},
+                                                     {140, 170, 190},
+                                                     {190, 140, 110},
+                                                     {150, 180, 130},
+                                                     {205, 205, 205},
+                                                     {120, 120, 150},
+                                                     {230, 170, 120},
+                                                     {110, 150, 140}}};
+  return colours[i % colours.size()];
+}
+
+/// From the low end of the bar to its high end.
+std::vector<Colour> bar_colours(const FixedScale& scale) {
+  if (!scale.categories.empty()) {
+    std::vector<Colour> colours;
+    for (std::size_t i = 0; i < scale.categories.size(); ++i) colours.push_back(category_colour(i));
+    return colours;
+  }
+  const auto [low, high] = scale.range;
+  if (is_diverging(scale.map) || !(low < 0 && high > 0)) return colour_table(scale.map, colour_count);
+  const int below =
+      std::clamp(static_cast<int>(std::lround(-low / (high - low) * colour_count)), 2, colour_count - 2);
+  std::vector<Colour> colours = colour_table(scale.map, below);
+  const std::vector<Colour> above = above_zero_table(scale.map, colour_count - below);
+  colours.insert(colours.end(), above.begin(), above.end());
+  return colours;
 }
 
 double label_width(const AxisTicks& ticks) {
@@ -58,8 +96,11 @@ void draw_point(Canvas& canvas, const Box& bar, double base, double tip, Colour 
 
 FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
   const ValueRange extent = finite_extent(values);
-  FixedScale fixed{.label = scale.label, .map = scale.map, .range = {}};
-  if (scale.range)
+  FixedScale fixed{
+      .label = scale.label, .map = scale.map, .range = {}, .extent = extent, .categories = scale.categories};
+  if (!scale.categories.empty())
+    fixed.range = {-0.5, static_cast<double>(scale.categories.size()) - 0.5};
+  else if (scale.range)
     fixed.range = given_range(scale);
   else
     fixed.range = is_diverging(scale.map) ? centred_range(extent) : rounded_range(extent);
@@ -72,15 +113,16 @@ FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
 }
 
 std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale) {
-  const std::vector<Colour> table = colour_table(scale.map, colour_count);
-  const double per_value = colour_count / (scale.range.high - scale.range.low);
+  const std::vector<Colour> table = bar_colours(scale);
+  const auto count = static_cast<double>(table.size());
+  const double per_value = count / (scale.range.high - scale.range.low);
   std::vector<Colour> colours;
   colours.reserve(values.size());
   for (const double value : values) {
     if (!std::isfinite(value)) {
       colours.push_back(invalid_colour(scale.map));
     } else {
-      const double index = std::clamp((value - scale.range.low) * per_value, 0., colour_count - 1.);
+      const double index = std::clamp((value - scale.range.low) * per_value, 0., count - 1.);
       colours.push_back(table[static_cast<std::size_t>(index)]);
     }
   }
@@ -90,21 +132,37 @@ std::vector<Colour> colours_of(std::span<const double> values, const FixedScale&
 double colour_bar_width(const FixedScale& scale, double height) {
   const AxisTicks ticks = fitting_ticks(axis_of(scale), straight_part({0, 0, 0, height}, scale).height, true);
   double labels = label_width(ticks) + tick_length + label_gap;
+  for (const std::string& name : scale.categories)
+    labels = std::max(labels, label_gap + std::min(longest_name, text_extent(name, tick_text).x));
+  if (scale.values_below)
+    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.low), tick_text).x);
+  if (scale.values_above)
+    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.high), tick_text).x);
   if (scale.values_invalid) labels = std::max(labels, label_gap + text_extent(invalid_label, tick_text).x);
   return bar_width + labels + title_gap + 1.4 * title_text;
 }
 
 void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
   const Box bar = straight_part(box, scale);
-  const std::vector<Colour> table = colour_table(scale.map, colour_count);
+  const std::vector<Colour> table = bar_colours(scale);
   const Pen edge{.colour = {60, 60, 60}};
   draw_colours(canvas, bar, table);
   canvas.frame(bar, edge);
+  if (const double zero = bar.y + bar.height * axis_of(scale).fraction(0); zero > bar.y && zero < bar.top())
+    if (scale.categories.empty()) canvas.line({bar.x, zero}, {bar.right(), zero}, edge);
   if (scale.values_below) draw_point(canvas, bar, bar.y, bar.y - point_height, table.front());
   if (scale.values_above) draw_point(canvas, bar, bar.top(), bar.top() + point_height, table.back());
+  const auto beside = [&](double y, const std::string& text) {
+    canvas.text({bar.right() + label_gap, y}, text,
+                {.size = fitting_size(text, tick_text, longest_name), .horizontal = Align::low});
+  };
+  if (scale.values_below) beside(bar.y - 0.8 * point_height, reach_text(scale.extent.low));
+  if (scale.values_above) beside(bar.top() + 0.8 * point_height, reach_text(scale.extent.high));
 
   const Axis axis = axis_of(scale);
-  const AxisTicks ticks = fitting_ticks(axis, bar.height, true);
+  const AxisTicks ticks = scale.categories.empty() ? fitting_ticks(axis, bar.height, true) : AxisTicks{};
+  for (std::size_t i = 0; i < scale.categories.size(); ++i)
+    beside(bar.y + bar.height * axis.fraction(static_cast<double>(i)), scale.categories[i]);
   for (std::size_t i = 0; i < ticks.major.size(); ++i) {
     const double y = bar.y + bar.height * axis.fraction(ticks.major[i]);
     canvas.line({bar.right(), y}, {bar.right() + tick_length, y}, edge);

@@ -16,6 +16,7 @@ struct ColourScale {
   ColourMap map = ColourMap::viridis;
   std::optional<ValueRange> range =
       {};  ///< default: the extent of the values, rounded; centred at zero if diverging
+  std::vector<std::string> categories = {};  ///< names of the values 0, 1, ...: the bar has a box for each
 };
 
 /// A scale whose range is known, and what the values shown with it do.
@@ -24,20 +25,24 @@ struct FixedScale {
   ColourMap map = ColourMap::viridis;
   ValueRange range;
   bool values_below = false, values_above = false, values_invalid = false;
+  ValueRange extent = {};  ///< of the values
+  std::vector<std::string> categories = {};
 };
 
 /// Settles the range for all of `values`. Throws std::runtime_error for a given range that is empty or not
 /// finite.
 FixedScale fix_scale(const ColourScale& scale, std::span<const double> values);
 
-/// Colour of each value: outside of the range that of its end, not finite the map's invalid colour.
+/// Colour of each value: outside of the range that of its end, not finite the map's invalid colour. A
+/// sequential map whose range holds zero goes on in reds above it.
 std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale);
 
 /// Width of bar, labels and title together, for a bar of this height [pixels].
 double colour_bar_width(const FixedScale& scale, double height);
 
 /// `box`: left edge, and the heights that the bar spans; the width is colour_bar_width's.
-/// Pointed ends say that values go beyond the range; a swatch below the bar explains the invalid colour.
+/// Pointed ends say that values go beyond the range, and how far; a swatch below the bar explains the invalid
+/// colour.
 void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale);
 
 }  // namespace porosph

@@ -61,6 +61,19 @@ std::vector<Colour> colour_table(ColourMap map, int count) {
   return colours;
 }
 
+std::vector<Colour> above_zero_table(ColourMap map, int count) {
+  const Colour start = colour_table(map, 2).back();
+  const std::array<std::uint32_t, 4> steps = {
+      static_cast<std::uint32_t>(start[0] << 16 | start[1] << 8 | start[2]), 0xfd8d3c, 0xe31a1c, 0x800026};
+  std::vector<Colour> colours;
+  for (int i = 0; i < count; ++i) {
+    const double position = 3. * i / (count - 1);
+    const auto below = std::min(static_cast<std::size_t>(position), std::size_t{2});
+    colours.push_back(blend(steps[below], steps[below + 1], position - static_cast<double>(below)));
+  }
+  return colours;
+}
+
 // Light for the sequential maps, whose low ends and cividis' middle are dark; dark where the middle is light.
 Colour invalid_colour(ColourMap map) {
   return is_diverging(map) ? Colour{90, 90, 90} : Colour{190, 190, 190};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "render/nice_ticks.hpp"
 
@@ -29,6 +30,37 @@ ValueRange finite_extent(std::span<const double> values) {
     extent.high = std::max(extent.high, value);
   }
   return extent;
+}
+
+ValueRange robust_extent(std::span<const double> values) {
+  const ValueRange whole = finite_extent(values);
+  std::vector<double> finite;
+  for (const double value : values)
+    if (std::isfinite(value)) finite.push_back(value);
+  const std::size_t few = finite.size() / 200;
+  if (few == 0) return whole;
+  const auto nth = [&](std::size_t n) {
+    std::ranges::nth_element(finite, finite.begin() + static_cast<std::ptrdiff_t>(n));
+    return finite[n];
+  };
+  const ValueRange core{nth(few), nth(finite.size() - 1 - few)};
+  return core.high - core.low < (whole.high - whole.low) * 2 / 3 && core.low < core.high ? core : whole;
+}
+
+ValueRange usual_extent(std::span<const ValueRange> extents) {
+  std::vector<double> spans;
+  for (const ValueRange& e : extents)
+    if (e.low <= e.high) spans.push_back(e.high - e.low);
+  double widest = std::numeric_limits<double>::infinity();
+  if (spans.size() >= 3) {
+    const auto middle = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
+    std::ranges::nth_element(spans, middle);
+    if (*middle > 0) widest = 1.5 * *middle;
+  }
+  std::vector<double> ends;
+  for (const ValueRange& e : extents)
+    if (e.low <= e.high && e.high - e.low <= widest) ends.insert(ends.end(), {e.low, e.high});
+  return finite_extent(ends);
 }
 
 ValueRange rounded_range(ValueRange extent) {

@@ -88,6 +88,31 @@ Extent body_extent(const ContourPanel& panel, const std::vector<Point>& position
   return extent;
 }
 
+/// How many times longer than true to scale the two directions are drawn, so that long and flat bodies, and
+/// tall and narrow ones, can be read; 1 unless one side is more than twenty times the other.
+struct Exaggeration {
+  double x = 1, y = 1;
+};
+
+Exaggeration exaggeration_of(const Extent& world) {
+  constexpr double extreme = 20, readable = 8;  // ratios of the sides
+  const double ratio = world.width() / world.height();
+  const auto whole = [](double factor) {  // 1, 2 or 5 times a power of ten, at least `factor`
+    const double power = std::pow(10., std::floor(std::log10(factor)));
+    for (const double step : {1., 2., 5.})
+      if (step * power >= factor * (1 - 1e-9)) return step * power;
+    return 10 * power;
+  };
+  if (ratio > extreme) return {1, whole(ratio / readable)};
+  if (ratio < 1 / extreme) return {whole(1 / (ratio * readable)), 1};
+  return {};
+}
+
+std::string axis_title(const char* name, double exaggeration) {
+  return exaggeration == 1 ? fmt::format("{} [m]", name)
+                           : fmt::format("{} [m], {:g} × larger", name, exaggeration);
+}
+
 struct Scene {
   const ContourPanel& panel;
   std::vector<Point> positions;
@@ -156,12 +181,12 @@ double titles_width(const std::vector<Scene>& scenes) {
   return std::min(width + 4, longest);
 }
 
-ContourSpace needed_space(const ContourFigure& figure, const std::vector<Scene>& scenes,
-                          const Extent& world) {
+ContourSpace needed_space(const ContourFigure& figure, const std::vector<Scene>& scenes, const Extent& world,
+                          const Exaggeration& exaggeration) {
   constexpr double guess = 600;  // of a panel's length, good enough to find the width of its labels
   ContourSpace space;
-  space.world_width = world.width();
-  space.world_height = world.height();
+  space.world_width = exaggeration.x * world.width();
+  space.world_height = exaggeration.y * world.height();
   space.padding = padding;
   space.least_frame = std::max(100., titles_width(scenes));
   space.header = figure.title.empty() ? 0 : 1.7 * figure_title_text;
@@ -177,13 +202,14 @@ ContourSpace needed_space(const ContourFigure& figure, const std::vector<Scene>&
   return space;
 }
 
-Plot plot_of(const Box& frame, const Extent& world, double pixels_per_metre) {
-  const auto axis = [&](double centre, double length, const char* title) {
-    const double half = 0.5 * length / pixels_per_metre;
-    return Axis{centre - half, centre + half, false, title};
+Plot plot_of(const Box& frame, const Extent& world, double pixels_per_metre,
+             const Exaggeration& exaggeration) {
+  const auto axis = [&](double centre, double length, const char* name, double larger) {
+    const double half = 0.5 * length / (larger * pixels_per_metre);
+    return Axis{centre - half, centre + half, false, axis_title(name, larger)};
   };
-  return {frame, axis(0.5 * (world.x_low + world.x_high), frame.width, "x [m]"),
-          axis(0.5 * (world.y_low + world.y_high), frame.height, "y [m]")};
+  return {frame, axis(0.5 * (world.x_low + world.x_high), frame.width, "x", exaggeration.x),
+          axis(0.5 * (world.y_low + world.y_high), frame.height, "y", exaggeration.y)};
 }
 
 void draw_titles(Canvas& canvas, const Scene& scene, const Box& frame) {
@@ -229,10 +255,12 @@ void save_contours(const ContourFigure& figure, const std::filesystem::path& pat
   for (Scene& scene : scenes) scene.note = missing_note(scene.positions, world);
 
   const double title_width = text_extent(figure.title, figure_title_text).x + 40;
-  const ContourLayout layout = lay_out(needed_space(figure, scenes, world),
+  const Exaggeration exaggeration = exaggeration_of(world);
+  const ContourLayout layout = lay_out(needed_space(figure, scenes, world, exaggeration),
                                        {figure.columns, figure.width, figure.height, title_width});
   std::vector<Plot> plots;
-  for (const Box& frame : layout.frames) plots.push_back(plot_of(frame, world, layout.pixels_per_metre));
+  for (const Box& frame : layout.frames)
+    plots.push_back(plot_of(frame, world, layout.pixels_per_metre, exaggeration));
 
   Picture picture(layout.width, layout.height);
   for (std::size_t i = 0; i < scenes.size(); ++i) add_scenes(picture, scenes[i], plots[i]);

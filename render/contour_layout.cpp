@@ -24,7 +24,17 @@ struct PanelGrid {
 
 PanelGrid make_grid(int panels, int columns) { return {columns, (panels + columns - 1) / columns, panels}; }
 
+/// A shared bar at the end of a full row also serves a last row that is not full.
+bool served_above(const ContourSpace& space, const PanelGrid& grid, int panel) {
+  const int row = grid.row(panel);
+  if (row == 0 || space.own_scale[panel] || panel != grid.panels - 1 ||
+      grid.column(panel) == grid.columns - 1)
+    return false;
+  return !space.own_scale[row * grid.columns - 1];
+}
+
 bool bar_after(const ContourSpace& space, const PanelGrid& grid, int panel) {
+  if (served_above(space, grid, panel)) return false;
   return space.own_scale[panel] || grid.ends_row(panel) || space.own_scale[panel + 1];
 }
 

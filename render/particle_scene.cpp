@@ -37,11 +37,11 @@ struct Cells {
     add_colour(colour);
   }
   /// `ring`: about `at`, in units of `scale` pixels.
-  void add_polygon(Pixel at, const Polygon& ring, double scale, const Colour& colour) {
+  void add_polygon(Pixel at, const Polygon& ring, Pixel scale, const Colour& colour) {
     cells->InsertNextCell(static_cast<int>(ring.size()));
     for (const Point& corner : ring)
       cells->InsertCellPoint(
-          points->InsertNextPoint(at.x + scale * corner.x(), at.y + scale * corner.y(), 0));
+          points->InsertNextPoint(at.x + scale.x * corner.x(), at.y + scale.y * corner.y(), 0));
     add_colour(colour);
   }
   void add_point(Pixel at, const Colour& colour) {
@@ -88,7 +88,8 @@ vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Poin
                                         const std::vector<Polygon>& outlines,
                                         const std::vector<Colour>& colours) {
   const bool as_points = positions.size() > most_quads;
-  const double pixels_per_metre = plot.box.width / (plot.x.high - plot.x.low);
+  const Pixel per_metre{plot.box.width / (plot.x.high - plot.x.low),
+                        plot.box.height / (plot.y.high - plot.y.low)};
   Cells cells;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Pixel at = plot.at(positions[i].x(), positions[i].y());
@@ -97,13 +98,15 @@ vtkSmartPointer<vtkProp> particle_scene(const Plot& plot, const std::vector<Poin
     if (as_points) {
       cells.add_point(local, colours[i]);
     } else if (!outlines.empty() && !outlines[i].empty()) {
-      cells.add_polygon(local, outlines[i], pixels_per_metre, colours[i]);
+      cells.add_polygon(local, outlines[i], per_metre, colours[i]);
     } else {
-      const double side = pixels_per_metre * (sizes.size() == 1 ? sizes[0] : sizes[i]);
-      cells.add_box({local.x - 0.5 * side, local.y - 0.5 * side, side, side}, colours[i]);
+      const double side = sizes.size() == 1 ? sizes[0] : sizes[i];
+      const double width = per_metre.x * side, height = per_metre.y * side;
+      cells.add_box({local.x - 0.5 * width, local.y - 0.5 * height, width, height}, colours[i]);
     }
   }
-  if (as_points) return gl_points(cells, pixels_per_metre * *std::ranges::max_element(sizes));
+  if (as_points)
+    return gl_points(cells, std::max(per_metre.x, per_metre.y) * *std::ranges::max_element(sizes));
   return polygons(cells);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace porosph {
 
@@ -122,9 +124,28 @@ bool soil_is_left(const std::vector<SoilOutline>& soils, const BoundaryCase& bou
   return left > 0;
 }
 
+/// The part of the line from `a` to `b` within `box`; both ends the same where there is none.
+std::pair<Pixel, Pixel> cut(Pixel a, Pixel b, const Box& box) {
+  double low = 0, high = 1;
+  const auto limit = [&](double start, double change, double from, double to) {
+    if (change == 0) {
+      if (start < from || start > to) high = low;
+      return;
+    }
+    const double t0 = (from - start) / change, t1 = (to - start) / change;
+    low = std::max(low, std::min(t0, t1));
+    high = std::min(high, std::max(t0, t1));
+  };
+  limit(a.x, b.x - a.x, box.x, box.right());
+  limit(a.y, b.y - a.y, box.y, box.top());
+  if (low >= high) return {a, a};
+  const auto at = [&](double t) { return Pixel{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; };
+  return {at(low), at(high)};
+}
+
 Support support(const Plot& plot, const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
-  const Pixel from = plot.at(boundary.from.x(), boundary.from.y()),
-              to = plot.at(boundary.to.x(), boundary.to.y());
+  const auto [from, to] =
+      cut(plot.at(boundary.from.x(), boundary.from.y()), plot.at(boundary.to.x(), boundary.to.y()), plot.box);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   Support result{from, to, {(to.x - from.x) / length, (to.y - from.y) / length}, {}, length};
   const double side = soil_is_left(soils, boundary) ? -1 : 1;
@@ -159,18 +180,72 @@ void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutlin
     draw_rollers(canvas, wall);
 }
 
-void draw_probe(Canvas& canvas, const Plot& plot, const ProbeCase& probe) {
-  constexpr double radius = 4, gap = 5;
-  const Pixel at = plot.at(probe.position.x(), probe.position.y());
-  const Pixel extent = text_extent(probe.name, title_text);
-  const bool flip = at.x + radius + gap + extent.x + 6 > plot.box.right();
-  const double x = flip ? at.x - radius - gap - extent.x : at.x + radius + gap;
-  const double y = std::clamp(at.y, plot.box.y + 10, plot.box.top() - 10);
-  if (!probe.name.empty()) {
-    canvas.box({x - 3, y - 9, extent.x + 6, 18}, {.colour = white, .opacity = 0.8});
-    canvas.text({x, y}, probe.name, {.size = title_text, .horizontal = Align::low});
+constexpr double probe_radius = 4;
+
+/// Whether the line from a to b comes into the box.
+bool crosses(const Box& box, Pixel a, Pixel b) {
+  const auto [from, to] = cut(a, b, box);
+  return from.x != to.x || from.y != to.y;
+}
+
+/// How much a name in this box would hide: outlines, water levels, other probes and names.
+int hidden_by(const Box& box, const Plot& plot, const Scenery& scenery, const std::vector<Box>& taken) {
+  int hidden = 0;
+  for_each_ring(scenery.soils, [&](const Polygon& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point &p = ring[i], &q = ring[(i + 1) % ring.size()];
+      hidden += crosses(box, plot.at(p.x(), p.y()), plot.at(q.x(), q.y()));
+    }
+  });
+  for (const WaterStretch& stretch : scenery.water) {
+    const double y = plot.at(0, stretch.level).y;
+    hidden += crosses(box, {std::max(plot.box.x, plot.at(stretch.x_from, 0).x), y},
+                      {std::min(plot.box.right(), plot.at(stretch.x_to, 0).x), y});
   }
-  canvas.disc(at, radius, {.colour = white}, {.colour = black, .width = 1.4});
+  for (const Box& other : taken)
+    hidden +=
+        2 * (box.x < other.right() && other.x < box.right() && box.y < other.top() && other.y < box.top());
+  const bool outside = box.x < plot.box.x || box.right() > plot.box.right() || box.y < plot.box.y ||
+                       box.top() > plot.box.top();
+  return hidden + (outside ? 100 : 0);
+}
+
+/// Beside, above or below the probe: where the name hides least.
+Box name_place(Pixel at, Pixel extent, const Plot& plot, const Scenery& scenery,
+               const std::vector<Box>& taken) {
+  constexpr double gap = probe_radius + 4;
+  const double width = extent.x + 4, height = 1.25 * title_text;
+  Box best;
+  int least = std::numeric_limits<int>::max();
+  for (const Pixel corner :
+       {Pixel{at.x + gap, at.y - 0.5 * height}, Pixel{at.x - gap - width, at.y - 0.5 * height},
+        Pixel{at.x - 0.5 * width, at.y - gap - height}, Pixel{at.x - 0.5 * width, at.y + gap},
+        Pixel{at.x + gap, at.y - gap - height}, Pixel{at.x - gap - width, at.y - gap - height},
+        Pixel{at.x + gap, at.y + gap}, Pixel{at.x - gap - width, at.y + gap}}) {
+    const Box box{corner.x, corner.y, width, height};
+    const int hidden = hidden_by(box, plot, scenery, taken);
+    if (hidden < least) best = box, least = hidden;
+  }
+  return best;
+}
+
+void draw_probes(Canvas& canvas, const Plot& plot, const Scenery& scenery) {
+  std::vector<Box> taken;
+  for (const ProbeCase& probe : scenery.probes) {
+    const Pixel at = plot.at(probe.position.x(), probe.position.y());
+    taken.push_back({at.x - probe_radius, at.y - probe_radius, 2 * probe_radius, 2 * probe_radius});
+  }
+  for (const ProbeCase& probe : scenery.probes) {
+    const Pixel at = plot.at(probe.position.x(), probe.position.y());
+    if (!probe.name.empty()) {
+      const double size = fitting_size(probe.name, title_text, 0.5 * plot.box.width);
+      const Box place = name_place(at, text_extent(probe.name, size), plot, scenery, taken);
+      canvas.text({place.x + 2, place.centre().y}, probe.name,
+                  {.size = size, .horizontal = Align::low, .halo = true});
+      taken.push_back(place);
+    }
+    canvas.disc(at, probe_radius, {.colour = white}, {.colour = black, .width = 1.4});
+  }
 }
 
 }  // namespace
@@ -200,7 +275,7 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
     if (stretch.x_from < stretch.x_to) draw_water_level(canvas, plot, scenery.soils, stretch);
   }
   for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
-  for (const ProbeCase& probe : scenery.probes) draw_probe(canvas, plot, probe);
+  draw_probes(canvas, plot, scenery);
 }
 
 }  // namespace porosph

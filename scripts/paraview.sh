@@ -15,25 +15,34 @@ if [ ! -x "$unpacked/usr/bin/pvpython" ]; then
   (cd "$unpacked" && apt-get download -qq python3-paraview && dpkg -x python3-paraview_*.deb . && rm python3-paraview_*.deb)
 fi
 
+scratch=$(mktemp -d)
+server=
+trap '[ -z "$server" ] || kill "$server"; rm -rf "$scratch"' EXIT
 if [ -z "${DISPLAY:-}" ]; then
-  number=$(mktemp)
-  Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp -noreset 3> "$number" 2> /dev/null &
+  Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp -noreset 3> "$scratch/display" 2> /dev/null &
   server=$!
-  trap 'kill "$server"; rm -f "$number"' EXIT
-  until [ -s "$number" ]; do
+  until [ -s "$scratch/display" ]; do
     kill -0 "$server" || exit 1
     sleep 0.1
   done
-  DISPLAY=":$(cat "$number")"
+  DISPLAY=":$(cat "$scratch/display")"
   export DISPLAY
 fi
 
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(--user --map-root-user)
-# The system's own vtk modules would be loaded in place of ParaView's: its modules lie over them, in here only.
+mkdir "$scratch/system" "$scratch/others"
+# The system's own vtk modules would be loaded in place of ParaView's: its modules lie over them, in here only. What
+# it does not have, such as numpy and matplotlib, is found through links.
 PARAVIEW=$unpacked unshare "${as_root[@]}" --mount bash -c '
-  mount --bind "$1" "$2"
-  shift 2
+  over=$1 modules=$2 system=$3/system others=$3/others
+  shift 3
+  mount --bind "$modules" "$system"
+  mount --bind "$over" "$modules"
+  for entry in "$system"/*; do
+    [ -e "$modules/${entry##*/}" ] || ln -s "$entry" "$others/"
+  done
+  export PYTHONPATH="$others${PYTHONPATH:+:$PYTHONPATH}"
   export LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/paraview-5.11 PATH="$PARAVIEW/usr/bin:$PATH"
   exec "$@"
-' paraview "$unpacked$modules" "$modules" "$@"
+' paraview "$unpacked$modules" "$modules" "$scratch" "$@"

@@ -6,6 +6,7 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -64,10 +65,19 @@ bool is_complete(const fs::path& file) {
   return stream.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
 }
 
+void add_text(vtkPolyData& data, const char* name, const std::string& text) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(text);
+  data.GetFieldData()->AddArray(array);
+}
+
 }  // namespace
 
 void write_frame(const fs::path& file, const Frame& frame, const SeriesOptions& options) {
   const auto data = view_of(frame);
+  add_text(*data, "Program", "Porosph " POROSPH_VERSION);
+  if (!options.scene.title.empty()) add_text(*data, "Title", options.scene.title);
   const auto writer = writer_of(*data, options.format);
   vtkNew<VtkErrors> errors;
   errors->watch(*writer);

@@ -16,16 +16,19 @@ inline constexpr const char* compare_script = "compare_in_paraview.py";  ///< tw
 /// What a script draws around the particles.
 struct ScriptScene {
   std::string title;
-  double spacing = 0;     ///< of the particles [m]; 0: estimated by the script
-  bool boundary = false;  ///< whether the series has a second block
+  double spacing = 0;           ///< of the particles [m]; 0: estimated by the script
+  double smoothing_length = 0;  ///< h [m], for sections; 0: none is prepared
+  bool boundary = false;        ///< whether the series has a second block
   std::vector<ProbeCase> probes;
   WaterCase water;
+  std::vector<SoilCase> soils;  ///< for their outlines
+  std::vector<BoundaryCase> boundaries;
 };
 ScriptScene script_scene(const Case& scene);
 
 /// Python text, for ParaView 5.11 or later: shows `pvd` (a name) in the script's own folder, or else in
-/// `folder`, coloured by the vertical effective stress or, where `frame` has none, its first field; with
-/// time, probes and water levels.
+/// `folder`, coloured by the vertical effective stress in kPa or, where `frame` has none, its first field;
+/// with time, outlines, supports, probes and water levels, and a section ready to be computed.
 std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
                             const ScriptScene& scene = {});
 

@@ -32,8 +32,8 @@ std::vector<std::string> distinct(const std::vector<WorkPoint>& points, Of of) {
   return all;
 }
 
-/// Forms keep their colour, strategies their line and marker.
-ChartSeries series_of(std::vector<WorkPoint> points, std::size_t form, std::size_t strategy) {
+/// `line`: number of the form with its strategy, whose colour is the same in all charts.
+ChartSeries series_of(std::vector<WorkPoint> points, std::size_t line, std::size_t strategy) {
   static constexpr LineStyle lines[] = {LineStyle::dash_dotted, LineStyle::dashed, LineStyle::solid,
                                         LineStyle::dotted};
   static constexpr Marker markers[] = {Marker::diamond, Marker::square, Marker::circle, Marker::triangle};
@@ -41,7 +41,7 @@ ChartSeries series_of(std::vector<WorkPoint> points, std::size_t form, std::size
             [](const WorkPoint& a, const WorkPoint& b) { return a.spacing > b.spacing; });
   ChartSeries series{.label = points.front().form + ": " + points.front().strategy, .x = {}, .y = {}};
   for (const WorkPoint& p : points) series.x.push_back(p.work().median), series.y.push_back(100 * p.error);
-  series.colour = series_colour(form);
+  series.colour = series_colour(line);
   series.line = lines[strategy % 4];
   series.marker = markers[strategy % 4];
   return series;
@@ -62,17 +62,19 @@ Chart chart_of(const WorkPrecision& work, const std::string& scene) {
   const auto forms = distinct(work.points, [](const WorkPoint& p) { return p.form; });
   const auto strategies = distinct(work.points, [](const WorkPoint& p) { return p.strategy; });
   Chart chart{.title = scene,
-              .x = {.title = "run time of one core [s]", .logarithmic = true},
+              .x = {.title = "run time on one core [s]", .logarithmic = true},
               .y = {.title = "error of σ'yy [%]", .logarithmic = true},
               .series = {},
               .references = {}};
-  for (std::size_t f = 0; f < forms.size(); ++f)
+  const auto lines = distinct(work.points, [](const WorkPoint& p) { return p.form + p.strategy; });
+  for (const std::string& form : forms)
     for (std::size_t s = 0; s < strategies.size(); ++s) {
       std::vector<WorkPoint> points;
       for (const WorkPoint& p : work.points)
-        if (p.scene == scene && p.form == forms[f] && p.strategy == strategies[s] && p.ending != "unstable")
+        if (p.scene == scene && p.form == form && p.strategy == strategies[s] && p.ending != "unstable")
           points.push_back(p);
-      if (!points.empty()) chart.series.push_back(series_of(points, f, s));
+      const auto line = std::find(lines.begin(), lines.end(), form + strategies[s]) - lines.begin();
+      if (!points.empty()) chart.series.push_back(series_of(points, static_cast<std::size_t>(line), s));
     }
   chart.x.range = range_of(chart.series, &ChartSeries::x);
   chart.y.range = range_of(chart.series, &ChartSeries::y);

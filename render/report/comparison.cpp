@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
+#include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -31,17 +33,16 @@ ContourPanel side_panel(const Side& side, const FieldSelection& field, double fa
   ContourPanel panel =
       panel_of(side.run, side.frame, scaled(values_of(side.frame, field), factor), deformation);
   panel.title = side.label;
-  panel.subtitle = time_text(side.frame.time);
-  if (side.run.scene) panel.subtitle += ", " + formulation_text(side.run);
+  panel.subtitle = panel_subtitle(side.run, side.frame.time, side.label);
   return panel;
 }
 
 /// Drawn where the soil was at t = 0, as the two runs have it in different places later.
 ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, std::vector<double> values,
-                              std::string title) {
+                              std::string title, std::string subtitle) {
   ContourPanel panel;
   panel.title = std::move(title);
-  panel.subtitle = "drawn at the start's positions";
+  panel.subtitle = std::move(subtitle);
   panel.particles.positions = at;
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(side.run, side.frame);
@@ -51,52 +52,77 @@ ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, st
   return panel;
 }
 
-void share_scale(const std::vector<ContourPanel*>& panels, const std::string& label) {
-  std::vector<std::vector<double>> values;
-  for (const ContourPanel* panel : panels) values.push_back(panel->particles.values);
-  const ColourScale scale{label, ColourMap::cool_warm, shared_range(values, ColourMap::cool_warm)};
-  for (ContourPanel* panel : panels) panel->own_scale = scale;
+std::string norms_text(const FieldNorms& n) {
+  return fmt::format("L2 {}, at most {}", relative_text(n.relative_l2), largest_text(n));
 }
 
-std::string with_difference(const std::string& label) { return "Δ" + label; }
+/// What is drawn, and with what.
+struct Drawing {
+  const Side &a, &b;
+  const FramePair frames;
+  const MaterialPoints& points;
+  const std::optional<FemReference>& fem;
+  const ComparisonChoice& choice;
+  bool different_times() const { return !is_fair(a.run, b.run, frames); }
+};
 
-void draw_field(const Side& a, const Side& b, const MaterialPoints& points,
-                const std::optional<FemReference>& fem, const FieldSelection& field, double deformation,
-                const fs::path& file) {
-  const auto values_a = values_of(a.frame, field), values_b = values_of(b.frame, field);
-  const ShownUnit unit = shown_unit(field.name, std::max(largest_of(values_a), largest_of(values_b)));
-  ContourFigure figure;
-  figure.title = shown_name(field);
-  figure.panels = {side_panel(a, field, unit.factor, deformation),
-                   side_panel(b, field, unit.factor, deformation)};
-  if (fem) figure.panels.push_back(fem_panel(*fem, b.run, b.frame, field, unit.factor, deformation));
-  std::vector<std::vector<double>> values;
-  for (const ContourPanel& panel : figure.panels) values.push_back(panel.particles.values);
-  figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
+ContourPanel run_difference(const Drawing& d, const FieldSelection& field, double factor) {
+  const auto values_a = d.points.sample_a(values_of(d.a.frame, field)),
+             values_b = d.points.sample_b(values_of(d.b.frame, field));
+  const FieldNorms n = norms(field, values_a, values_b, d.points.at, d.points.volumes, largest_of(values_b));
   const bool a_is_coarser =
-      a.run.scene && b.run.scene && a.run.scene->particles.spacing > b.run.scene->particles.spacing;
-  figure.panels.push_back(
-      difference_panel(a_is_coarser ? a : b, points.at,
-                       scaled(difference(points.sample_a(values_a), points.sample_b(values_b)), unit.factor),
-                       a.label + " − " + b.label));
-  const std::string delta = with_difference(shown_label(field, unit));
-  if (fem) {
-    for (const Side& side : {a, b}) {
-      const std::vector<Point> starts = starts_of(side.frame);
-      figure.panels.push_back(difference_panel(
-          side, starts,
-          scaled(difference(values_of(side.frame, field), fem->values(field, starts)), unit.factor),
-          side.label + " − finite elements"));
-    }
-  }
-  std::vector<ContourPanel*> differences;
-  for (std::size_t i = values.size(); i < figure.panels.size(); ++i) differences.push_back(&figure.panels[i]);
-  share_scale(differences, delta);
-  save_contours(figure, file);
+      d.a.run.scene && d.b.run.scene && d.a.run.scene->particles.spacing > d.b.run.scene->particles.spacing;
+  std::string subtitle = norms_text(n);
+  if (d.different_times())
+    subtitle = fmt::format("{:.3g} s − {:.3g} s: {}", d.a.frame.time, d.b.frame.time, subtitle);
+  return difference_panel(a_is_coarser ? d.a : d.b, d.points.at,
+                          scaled(difference(values_a, values_b), factor), d.a.label + " − " + d.b.label,
+                          subtitle);
+}
+
+ContourPanel fem_difference(const Drawing& d, const Side& side, const FieldSelection& field, double factor) {
+  const std::vector<Point> starts = starts_of(side.frame);
+  const FieldNorms n = fem_norm(side.frame, *d.fem, field, d.choice.left_out);
+  return difference_panel(
+      side, starts, scaled(difference(values_of(side.frame, field), d.fem->values(field, starts)), factor),
+      side.label + " − finite elements", norms_text(n));
+}
+
+/// Each difference has a range of its own: one may be a hundredth of another.
+void scale_differences(std::span<ContourPanel> panels, const std::string& label,
+                       std::optional<ValueRange> range) {
+  for (ContourPanel& panel : panels)
+    panel.own_scale = {
+        .label = "Δ" + label,
+        .map = ColourMap::cool_warm,
+        .range = range ? *range : range_of_runs({panel.particles.values}, ColourMap::cool_warm)};
 }
 
 /// Differences to finite elements at particles need values of the field with its component.
 bool drawable_with_fem(const FieldSelection& f) { return !(f.component.empty() && f.name == "Displacement"); }
+
+void draw_field(const Drawing& d, const FieldSelection& field, const fs::path& file) {
+  const ShownUnit unit = shown_unit(
+      field.name, std::max(largest_of(values_of(d.a.frame, field)), largest_of(values_of(d.b.frame, field))));
+  const bool with_fem = d.fem && drawable_with_fem(field);
+  ContourFigure figure;
+  figure.title = shown_name(field);
+  figure.panels = {side_panel(d.a, field, unit.factor, d.choice.deformation),
+                   side_panel(d.b, field, unit.factor, d.choice.deformation)};
+  if (with_fem)
+    figure.panels.push_back(fem_panel(*d.fem, d.b.run, d.b.frame, field, unit.factor, d.choice.deformation));
+  std::vector<std::vector<double>> values;
+  for (const ContourPanel& panel : figure.panels) values.push_back(panel.particles.values);
+  figure.scale = scale_of(field, unit, d.b.run.scene,
+                          d.choice.range ? *d.choice.range : range_of_runs(values, usual_map(field)));
+  figure.panels.push_back(run_difference(d, field, unit.factor));
+  if (with_fem)
+    for (const Side* side : {&d.a, &d.b})
+      figure.panels.push_back(fem_difference(d, *side, field, unit.factor));
+  scale_differences(std::span(figure.panels).subspan(values.size()), shown_label(field, unit),
+                    d.choice.difference_range);
+  save_contours(figure, file);
+}
 
 nlohmann::ordered_json json_of(const std::vector<FieldNorms>& all) {
   auto object = nlohmann::ordered_json::object();
@@ -115,13 +141,14 @@ nlohmann::ordered_json json_of(const std::vector<FieldNorms>& all) {
   return object;
 }
 
-std::string csv_rows(const std::string& values, const std::string& reference,
-                     const std::vector<FieldNorms>& all) {
+/// `reference_time`: empty for finite elements, which are at rest.
+std::string csv_rows(const std::string& values, double time, const std::string& reference,
+                     const std::string& reference_time, const std::vector<FieldNorms>& all) {
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.9g}", v) : std::string(); };
   std::string rows;
   for (const FieldNorms& n : all)
     rows += csv_line({values, reference, n.field.text(), number(n.relative_l2), number(n.max_abs),
-                      number(n.where.x()), number(n.where.y())});
+                      number(n.where.x()), number(n.where.y()), fmt::format("{}", time), reference_time});
   return rows;
 }
 
@@ -138,10 +165,14 @@ ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Fr
   panel.particles.sizes = particle_sizes(run, frame);
   if (run.scene) panel.particles.cells = drawn_cells(*run.scene, starts);
   const auto x = fem.values({"Displacement", "X"}, starts), y = fem.values({"Displacement", "Y"}, starts);
+  std::vector<Point> displacements;
   for (std::size_t i = 0; i < starts.size(); ++i)
-    panel.particles.displacements.push_back(std::isfinite(x[i]) ? Point(x[i], y[i]) : Point(0, 0));
-  panel.particles.displacement_factor = deformation;
+    displacements.push_back(std::isfinite(x[i]) ? Point(x[i], y[i]) : Point(0, 0));
   panel.scenery = scenery_of(fem.scene());
+  if (run.scene && deformation != 1)
+    deform_surroundings(panel, *run.scene, starts, displacements, deformation);
+  panel.particles.displacements = std::move(displacements);
+  panel.particles.displacement_factor = deformation;
   return panel;
 }
 
@@ -172,8 +203,8 @@ Comparison compare_runs(const FinishedRun& a, std::size_t index_a, const Finishe
   make_folder(folder);
   for (const FieldSelection& field : choice.pictures) {
     result.pictures.push_back(file_name(field.text()) + ".png");
-    draw_field(side_a, side_b, points, drawable_with_fem(field) ? fem : std::nullopt, field,
-               choice.deformation, folder / result.pictures.back());
+    draw_field({side_a, side_b, {index_a, index_b}, points, fem, choice}, field,
+               folder / result.pictures.back());
   }
   if (const auto charts = stress_histories({a, b}, labels); !charts.empty()) {
     result.pictures.push_back("history.png");
@@ -184,10 +215,12 @@ Comparison compare_runs(const FinishedRun& a, std::size_t index_a, const Finishe
 
 void write_norms(const Comparison& c, const std::string& label_a, const std::string& label_b,
                  const fs::path& folder) {
-  write_file(folder / "comparison.csv", "values,reference,field,relative_l2,max_abs,x,y\n" +
-                                            csv_rows(label_a, label_b, c.a_against_b) +
-                                            csv_rows(label_a, "finite elements", c.a_against_fem) +
-                                            csv_rows(label_b, "finite elements", c.b_against_fem));
+  const std::string fem = "finite elements";
+  write_file(folder / "comparison.csv",
+             "values,reference,field,relative_l2,max_abs,x,y,time,reference_time\n" +
+                 csv_rows(label_a, c.time_a, label_b, fmt::format("{}", c.time_b), c.a_against_b) +
+                 csv_rows(label_a, c.time_a, fem, "", c.a_against_fem) +
+                 csv_rows(label_b, c.time_b, fem, "", c.b_against_fem));
   nlohmann::ordered_json json = {{"a", {{"run", label_a}, {"time", c.time_a}}},
                                  {"b", {{"run", label_b}, {"time", c.time_b}}},
                                  {"points", c.points},

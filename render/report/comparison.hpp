@@ -13,7 +13,8 @@ namespace porosph {
 struct ComparisonChoice {
   std::vector<FieldSelection> pictures;  ///< fields to draw
   double deformation = 1;
-  std::vector<LeftOut> left_out;  ///< of the norms against finite elements
+  std::optional<ValueRange> range, difference_range;  ///< of the colours, as shown; default: by the values
+  std::vector<LeftOut> left_out;                      ///< of the norms against finite elements
 };
 
 struct Comparison {

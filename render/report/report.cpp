@@ -118,12 +118,18 @@ Rows run_table(const std::vector<LoadedRun>& runs) {
   return rows;
 }
 
+/// The field that summary.json calls "EffectiveStress_YY".
+FieldSelection selection_of(const std::string& text) {
+  const auto at = text.find('_');
+  return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
+}
+
 Rows error_table(const std::vector<LoadedRun>& runs) {
   Rows rows = {{"Field"}};
   std::map<std::string, std::size_t> row_of;
   for (const LoadedRun& r : runs)
     for (const auto& [field, norms] : r.run.summary->errors)
-      if (row_of.try_emplace(field, rows.size()).second) rows.push_back({field});
+      if (row_of.try_emplace(field, rows.size()).second) rows.push_back({shown_name(selection_of(field))});
   for (const LoadedRun& r : runs) {
     rows[0].push_back(r.label);
     for (const auto& [field, row] : row_of) {
@@ -132,7 +138,7 @@ Rows error_table(const std::vector<LoadedRun>& runs) {
         rows[row].push_back("–");
         continue;
       }
-      const ShownUnit unit = shown_unit(field.substr(0, field.find('_')), found->second.max_abs);
+      const ShownUnit unit = shown_unit(selection_of(field).name, found->second.max_abs);
       rows[row].push_back(number(100 * found->second.relative_l2, "{:.3g} %") +
                           number(found->second.max_abs * unit.factor, " (at most {:.3g} ") + unit.name + ")");
     }
@@ -142,12 +148,13 @@ Rows error_table(const std::vector<LoadedRun>& runs) {
 
 Rows fem_table(const std::vector<LoadedRun>& runs, const std::vector<std::vector<FieldNorms>>& norms) {
   Rows rows = {{"Field"}};
-  for (const FieldNorms& n : norms.front()) rows.push_back({n.field.text()});
+  for (const FieldNorms& n : norms.front()) rows.push_back({shown_name(n.field)});
   for (std::size_t i = 0; i < runs.size(); ++i) {
     rows[0].push_back(runs[i].label);
     for (std::size_t row = 1; row < rows.size(); ++row) {
-      const auto found = std::find_if(norms[i].begin(), norms[i].end(),
-                                      [&](const FieldNorms& n) { return n.field.text() == rows[row][0]; });
+      const auto found = std::find_if(norms[i].begin(), norms[i].end(), [&](const FieldNorms& n) {
+        return shown_name(n.field) == rows[row][0];
+      });
       rows[row].push_back(found == norms[i].end() ? "–"
                                                   : relative_text(found->relative_l2) + " (at most " +
                                                         largest_text(*found) + ")");

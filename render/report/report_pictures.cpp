@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that is fit for a file and for a link to it.
-std::string subtitle_of(const FinishedRun& run, double time) {
-  return time_text(time) + (run.scene ? ", " + formulation_text(run) : "");
-}
-
 /// Frame numbers, closer together at the start, where most happens.
 std::vector<std::size_t> instants(std::size_t frames) {
   constexpr int count = 6;
@@ -44,11 +39,10 @@ ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
   const auto values = values_of(start, field);
   const ShownUnit unit = shown_unit(field.name, largest_of(values));
   ContourPanel panel = panel_of(run, start, scaled(values, unit.factor));
-  panel.title = several ? "Soils, by their number" : shown_name(field) + " at the start";
-  save_contours({.title = run.scene->title,
-                 .panels = {std::move(panel)},
-                 .scale = {shown_label(field, unit), ColourMap::cividis, {}},
-                 .columns = 1},
+  panel.title = shown_name(field) + " at the start";
+  ColourScale scale = scale_of(field, unit, run.scene, std::nullopt);
+  scale.map = ColourMap::cividis;
+  save_contours({.title = run.scene->title, .panels = {std::move(panel)}, .scale = scale, .columns = 1},
                 folder / "case.png");
   std::string soils;
   for (const SoilCase& s : run.scene->soils) soils += (soils.empty() ? "" : ", ") + s.name;
@@ -74,14 +68,14 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
     values[i] = scaled(std::move(values[i]), unit.factor);
     ContourPanel panel = panel_of(runs[i].run, runs[i].last, values[i]);
     panel.title = runs[i].label;
-    panel.subtitle = subtitle_of(runs[i].run, runs[i].last.time);
+    panel.subtitle = panel_subtitle(runs[i].run, runs[i].last.time, runs[i].label);
     figure.panels.push_back(std::move(panel));
   }
   if (fem) {
     figure.panels.push_back(fem_panel(*fem, runs.front().run, runs.front().last, field, unit.factor));
     values.push_back(figure.panels.back().particles.values);
   }
-  figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
+  figure.scale = scale_of(field, unit, runs.front().run.scene, range_of_runs(values, usual_map(field)));
   const std::string file = "contours_" + file_name(field.text()) + ".png";
   save_contours(figure, folder / file);
   return {file, shown_name(field) + " of all runs",
@@ -115,6 +109,7 @@ std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, cons
       if (auto line = history_line(runs[i].run, probe.name, field.text(), unit.factor)) {
         line->label = runs[i].label;
         style(*line, i);
+        mark_end(*line, runs[i].run);
         chart.series.push_back(std::move(*line));
       }
     if (chart.series.empty()) return std::nullopt;
@@ -152,11 +147,13 @@ ReportPicture draw_development(const LoadedRun& loaded, const FieldSelection& fi
     panel.title = time_text(frames[i].time);
     figure.panels.push_back(std::move(panel));
   }
-  figure.scale = {shown_label(field, unit), usual_map(field), shared_range(values, usual_map(field))};
-  const std::string file = "development_" + file_name(loaded.label) + ".png";
+  std::vector<ValueRange> extents;
+  for (const auto& v : values) extents.push_back(robust_extent(v));
+  figure.scale = scale_of(field, unit, run.scene, range_of_instants(extents, usual_map(field)));
+  const std::string file = "development_" + file_name(loaded.run.name) + ".png";
   save_contours(figure, folder / file);
   return {file, shown_name(field) + " over time in run " + loaded.label,
-          fmt::format("How the {} develops in {}.", field.text(), loaded.label)};
+          fmt::format("How the {} develops in {}.", name_in_sentence(field), loaded.label)};
 }
 
 }  // namespace porosph

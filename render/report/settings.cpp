@@ -24,6 +24,7 @@ std::string text_of(const toml::node& node) {
     for (const toml::node& item : *array) items.push_back(text_of(item));
     return fmt::format("[{}]", fmt::join(items, ", "));
   }
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();

@@ -32,13 +32,27 @@ FinishedRun open_run(const fs::path& path) {
 }
 
 std::vector<std::string> run_labels(const std::vector<FinishedRun>& runs) {
+  const auto short_name = [](const FinishedRun& run) { return run.label.empty() ? run.name : run.label; };
   std::vector<std::string> labels;
   for (const FinishedRun& run : runs) {
-    const auto alike =
-        std::count_if(runs.begin(), runs.end(), [&](const auto& r) { return r.name == run.name; });
-    labels.push_back(alike > 1 ? run.folder.string() : run.name);
+    const auto alike = std::count_if(runs.begin(), runs.end(),
+                                     [&](const auto& r) { return short_name(r) == short_name(run); });
+    labels.push_back(alike > 1 ? run.folder.string() : short_name(run));
   }
   return labels;
+}
+
+void set_labels(std::vector<FinishedRun>& runs, const std::vector<std::string>& labels) {
+  if (labels.empty()) return;
+  if (labels.size() != runs.size())
+    throw std::runtime_error(fmt::format(
+        "--label is given {} time{} for {} run{}; it must be given once for each run, in their order",
+        labels.size(), labels.size() == 1 ? "" : "s", runs.size(), runs.size() == 1 ? "" : "s"));
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].label = labels[i];
+}
+
+bool ends_at_rest(const FinishedRun& run) {
+  return run.summary && run.summary->status == RunStatus::equilibrium;
 }
 
 Frame frame_of(const FinishedRun& run, std::size_t frame) {

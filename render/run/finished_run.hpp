@@ -14,7 +14,8 @@ namespace porosph {
 
 struct FinishedRun {
   std::filesystem::path folder;
-  std::string name;  ///< the folder's own name
+  std::string name;   ///< the folder's own name
+  std::string label;  ///< what the command line calls it; may be empty
   Series series;
   std::optional<Case> scene;       ///< case.toml beside the series, if there is one
   std::optional<Summary> summary;  ///< summary.json, as above
@@ -25,11 +26,17 @@ struct FinishedRun {
 /// hold a case.
 FinishedRun open_run(const std::filesystem::path& path);
 
-/// The folders' names; the whole path where two are alike.
+/// The runs' own labels, or else the folders' names; the whole path where two are alike.
 std::vector<std::string> run_labels(const std::vector<FinishedRun>& runs);
+
+/// Gives the runs labels in their order. Throws std::runtime_error unless there are as many as runs, or none.
+void set_labels(std::vector<FinishedRun>& runs, const std::vector<std::string>& labels);
 
 /// One frame of the run. Throws ReadError.
 Frame frame_of(const FinishedRun& run, std::size_t frame);
+
+/// Whether the run came to rest at the end, so that its last frame stands for any later time.
+bool ends_at_rest(const FinishedRun& run);
 
 /// The frame nearest to `time` [s]. Throws std::runtime_error, naming the series' first and last time, for a
 /// time further outside of it than half the distance between its frames.

@@ -63,6 +63,16 @@ std::optional<ChartSeries> exact_vibration(const Case& scene, const ProbeCase& p
   return series;
 }
 
+void mark_end(ChartSeries& series, const FinishedRun& run) {
+  if (!run.summary) return;
+  const RunStatus status = run.summary->status;
+  if (status == RunStatus::completed) return;
+  series.end = status == RunStatus::equilibrium ? LineEnd::stopped : LineEnd::broken;
+  if (status == RunStatus::unstable) series.label += fmt::format(", unstable at {:.3g} s", run.summary->time);
+  if (status == RunStatus::interrupted)
+    series.label += fmt::format(", interrupted at {:.3g} s", run.summary->time);
+}
+
 void style(ChartSeries& series, std::size_t run) {
   constexpr std::array lines = {LineStyle::solid, LineStyle::dashed, LineStyle::dash_dotted,
                                 LineStyle::dotted};
@@ -89,6 +99,7 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
       if (!line) continue;
       line->label = labels[i];
       style(*line, i);
+      mark_end(*line, runs[i]);
       chart.series.push_back(std::move(*line));
       if (!exact && runs[i].scene) exact = exact_vibration(*runs[i].scene, probe, unit.factor);
     }

@@ -24,6 +24,9 @@ std::optional<ChartSeries> exact_vibration(const Case& scene, const ProbeCase& p
 std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
                                     const std::vector<std::string>& labels);
 
+/// Says in the line's label where a run broke down or was interrupted, and marks its end.
+void mark_end(ChartSeries& series, const FinishedRun& run);
+
 /// Every run has its own colour, dashes tell them apart without colour.
 void style(ChartSeries& series, std::size_t run);
 

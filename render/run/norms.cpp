@@ -89,26 +89,50 @@ void require_same_problem(const FinishedRun& run, const FemReference& fem) {
     refuse("the water");
 }
 
-std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,
-                                  const std::vector<LeftOut>& left_out) {
-  const std::vector<Point> starts = starts_of(frame);
-  const std::vector<double> all_volumes = volumes_of(frame);
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < starts.size(); ++i)
-    if (fem.covers(starts[i]) && std::none_of(left_out.begin(), left_out.end(), [&](const LeftOut& o) {
-          return (starts[i] - o.at).norm() < o.radius;
-        }))
-      kept.push_back(i);
-  if (kept.empty())
-    throw std::runtime_error("no particle lies in the finite-element mesh and outside of what is left out");
+namespace {
+
+/// Particles that count against finite elements.
+struct Counted {
+  std::vector<std::size_t> particles;
   std::vector<Point> at;
   std::vector<double> volumes;
-  for (std::size_t i : kept) at.push_back(starts[i]), volumes.push_back(all_volumes[i]);
-  std::vector<FieldNorms> all;
-  for (const FieldSelection& f : comparable_fields(frame, frame)) {
-    const std::vector<double> values = Sampler(kept)(values_of(frame, f));
-    all.push_back(norms(f, values, fem.values(f, at), at, volumes, scale_of(frame, f.name)));
+};
+
+Counted counted(const Frame& frame, const FemReference& fem, const std::vector<LeftOut>& left_out) {
+  const std::vector<Point> starts = starts_of(frame);
+  const std::vector<double> volumes = volumes_of(frame);
+  Counted c;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto hides = [&](const LeftOut& o) { return (starts[i] - o.at).norm() < o.radius; };
+    if (!fem.covers(starts[i]) || std::ranges::any_of(left_out, hides)) continue;
+    c.particles.push_back(i);
+    c.at.push_back(starts[i]);
+    c.volumes.push_back(volumes[i]);
   }
+  if (c.particles.empty())
+    throw std::runtime_error("no particle lies in the finite-element mesh and outside of what is left out");
+  return c;
+}
+
+FieldNorms norm_at(const Counted& c, const Frame& frame, const FemReference& fem, const FieldSelection& field,
+                   double scale) {
+  const std::vector<double> values = Sampler(c.particles)(values_of(frame, field));
+  return norms(field, values, fem.values(field, c.at), c.at, c.volumes, scale);
+}
+
+}  // namespace
+
+FieldNorms fem_norm(const Frame& frame, const FemReference& fem, const FieldSelection& field,
+                    const std::vector<LeftOut>& left_out) {
+  return norm_at(counted(frame, fem, left_out), frame, fem, field, largest_of(values_of(frame, field)));
+}
+
+std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,
+                                  const std::vector<LeftOut>& left_out) {
+  const Counted c = counted(frame, fem, left_out);
+  std::vector<FieldNorms> all;
+  for (const FieldSelection& f : comparable_fields(frame, frame))
+    all.push_back(norm_at(c, frame, fem, f, scale_of(frame, f.name)));
   return all;
 }
 

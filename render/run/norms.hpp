@@ -38,6 +38,10 @@ struct LeftOut {
 /// the run.
 void require_same_problem(const FinishedRun& run, const FemReference& fem);
 
+/// One field of the run's particles against the finite-element reference, as fem_norms.
+FieldNorms fem_norm(const Frame& frame, const FemReference& fem, const FieldSelection& field,
+                    const std::vector<LeftOut>& left_out);
+
 /// The run's particles against the finite-element reference, without those near `left_out` or outside of its
 /// mesh. Throws std::runtime_error if no particle is left.
 std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,

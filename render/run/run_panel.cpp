@@ -25,7 +25,8 @@ std::vector<Point> positions_of(const Frame& frame) {
   return out;
 }
 
-constexpr double overlap = 1.03;  // so that soil that stretches a little shows no gaps
+constexpr double overlap = 1.03;                     // so that soil that stretches a little shows no gaps
+constexpr std::size_t most_deformed_cells = 50'000;  // more are too small for their shape to be seen
 
 /// Median distance from a few particles to their nearest.
 double usual_distance(const std::vector<Point>& positions) {
@@ -42,9 +43,16 @@ double usual_distance(const std::vector<Point>& positions) {
   return nearest[nearest.size() / 2];
 }
 
-}  // namespace
-
-namespace {
+/// With corners no further apart than `spacing`, so that it can bend.
+Polygon subdivided(const Polygon& ring, double spacing) {
+  Polygon out;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point along = ring[(i + 1) % ring.size()] - ring[i];
+    const double pieces = std::clamp(std::ceil(along.norm() / spacing), 1., 10'000.);
+    for (int k = 0; k < static_cast<int>(pieces); ++k) out.push_back(ring[i] + k / pieces * along);
+  }
+  return out;
+}
 
 /// With the water level of that time [s].
 Case scene_at(Case scene, double time) {
@@ -77,6 +85,42 @@ std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& st
   return cells;
 }
 
+void deform_surroundings(ContourPanel& panel, const Case& scene, const std::vector<Point>& starts,
+                         const std::vector<Point>& displacements, double factor) {
+  std::vector<double> u_x, u_y;
+  for (const Point& u : displacements) u_x.push_back(u.x()), u_y.push_back(u.y());
+  const auto moved = [&](const std::vector<Point>& points) {
+    const Sampler sample(points, starts, scene.smoothing_length());
+    const std::vector<double> x = sample(u_x), y = sample(u_y);
+    std::vector<Point> out = points;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (std::isfinite(x[i]) && std::isfinite(y[i])) out[i] += factor * Point(x[i], y[i]);
+    return out;
+  };
+  for (SoilOutline& soil : panel.scenery.soils) {
+    soil.polygon = moved(subdivided(soil.polygon, scene.particles.spacing));
+    for (Polygon& hole : soil.holes) hole = moved(subdivided(hole, scene.particles.spacing));
+  }
+  std::vector<Point> probes;
+  for (const ProbeCase& probe : panel.scenery.probes) probes.push_back(probe.position);
+  probes = moved(probes);
+  for (std::size_t i = 0; i < probes.size(); ++i) panel.scenery.probes[i].position = probes[i];
+
+  std::vector<Polygon>& cells = panel.particles.cells;
+  if (starts.size() > most_deformed_cells) return;
+  cells.resize(starts.size());
+  const double half = 0.5 * overlap * scene.particles.spacing;
+  std::vector<Point> corners;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].empty()) cells[i] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+    for (const Point& corner : cells[i]) corners.push_back(starts[i] + corner);
+  }
+  corners = moved(corners);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (Point& corner : cells[i]) corner = corners[next++] - (starts[i] + factor * displacements[i]);
+}
+
 ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<double> values,
                       double deformation) {
   ContourPanel panel;
@@ -85,32 +129,61 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   panel.particles.sizes = particle_sizes(run, frame);
   if (run.scene && has(frame, "Displacement"))
     panel.particles.cells = drawn_cells(*run.scene, starts_of(frame));
-  if (deformation != 1) {
-    if (!has(frame, "Displacement"))
-      throw std::runtime_error(
-          "drawing the deformation needs the field Displacement, which the series does not have");
-    const auto x = values_of(frame, {"Displacement", "X"}), y = values_of(frame, {"Displacement", "Y"});
-    for (std::size_t i = 0; i < x.size(); ++i) panel.particles.displacements.push_back({x[i], y[i]});
-    panel.particles.displacement_factor = deformation - 1;  // the positions hold it once
-  }
   if (run.scene) panel.scenery = scenery_of(scene_at(*run.scene, frame.time));
+  if (deformation == 1) return panel;
+  if (!has(frame, "Displacement"))
+    throw std::runtime_error(
+        "drawing the deformation needs the field Displacement, which the series does not have");
+  const auto x = values_of(frame, {"Displacement", "X"}), y = values_of(frame, {"Displacement", "Y"});
+  std::vector<Point> displacements;
+  for (std::size_t i = 0; i < x.size(); ++i) displacements.push_back({x[i], y[i]});
+  if (run.scene) deform_surroundings(panel, *run.scene, starts_of(frame), displacements, deformation);
+  panel.particles.displacements = std::move(displacements);
+  panel.particles.displacement_factor = deformation - 1;  // the positions hold it once
   return panel;
 }
 
-ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMap map) {
+ValueRange range_of_instants(const std::vector<ValueRange>& extents, ColourMap map) {
   std::vector<double> ends;
-  for (const auto& v : values)
-    if (const ValueRange r = finite_extent(v); r.low <= r.high) ends.insert(ends.end(), {r.low, r.high});
-  return is_diverging(map) ? centred_range(finite_extent(ends)) : rounded_range(finite_extent(ends));
+  for (const ValueRange& e : extents)
+    if (e.low <= e.high) ends.insert(ends.end(), {e.low, e.high});
+  ValueRange extent = finite_extent(ends);
+  if (is_diverging(map)) return centred_range(extent);
+  constexpr double little = 0.02;  // of the span: tension of rounding errors needs no colours of its own
+  if (extent.low < 0 && extent.high > 0 && extent.high < little * (extent.high - extent.low)) extent.high = 0;
+  return rounded_range(extent);
+}
+
+ValueRange range_of_runs(const std::vector<std::vector<double>>& values, ColourMap map) {
+  std::vector<ValueRange> extents;
+  for (const auto& v : values) extents.push_back(robust_extent(v));
+  return range_of_instants({usual_extent(extents)}, map);
+}
+
+ColourScale scale_of(const FieldSelection& field, const ShownUnit& unit, const std::optional<Case>& scene,
+                     std::optional<ValueRange> range) {
+  ColourScale scale{.label = shown_label(field, unit), .map = usual_map(field), .range = range};
+  if (field.name == "SoilId" && scene) {
+    scale.label = "soil";
+    for (const SoilCase& soil : scene->soils) scale.categories.push_back(soil.name);
+  }
+  return scale;
 }
 
 std::string time_text(double time) { return fmt::format("t = {:.3g} s", time); }
 
-std::string formulation_text(const FinishedRun& run) {
-  if (!run.scene) return "";
+std::string panel_subtitle(const FinishedRun& run, double time, const std::string& title) {
+  std::string text = time_text(time);
+  const bool is_last = time >= run.series.frames.back().time;
+  if (run.summary && is_last && run.summary->status == RunStatus::unstable) text += ", unstable";
+  if (!run.scene) return text;
   const FormulationCase& f = run.scene->formulation;
-  return std::string(motion_name(f.motion)) + (f.kernel_correction ? "" : ", without kernel correction") +
-         (run.scene->loading.damping > 0 || run.scene->loading.adaptive_damping ? "" : ", undamped");
+  std::vector<std::string> parts = {std::string(motion_name(f.motion))};
+  if (!f.kernel_correction) parts.push_back("without kernel correction");
+  if (run.scene->loading.damping == 0 && !run.scene->loading.adaptive_damping) parts.push_back("undamped");
+  for (const std::string& part : parts)
+    if (title.find(part) == std::string::npos) text += ", " + part;
+  return text;
 }
 
 }  // namespace porosph

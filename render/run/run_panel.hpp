@@ -3,6 +3,7 @@
 
 #include "render/contour.hpp"
 #include "render/run/finished_run.hpp"
+#include "render/run/shown_field.hpp"
 
 namespace porosph {
 
@@ -11,9 +12,15 @@ Scenery scenery_of(const Case& scene);
 
 /// A panel without titles. `values`: one per particle, as they are shown. `deformation`: 1 draws the
 /// particles where they are, 0 where they were at the start, other values exaggerate (needs Displacement in
-/// the frame; throws std::runtime_error without).
+/// the frame; throws std::runtime_error without). Unless it is 1, outlines and probes move along with the
+/// soil, while supports and water stay where they are.
 ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<double> values,
                       double deformation = 1);
+
+/// Moves a panel's outlines, probes and cells by `factor` times the particles' `displacements`, which are
+/// theirs from `starts` [m]; its positions are left alone.
+void deform_surroundings(ContourPanel& panel, const Case& scene, const std::vector<Point>& starts,
+                         const std::vector<Point>& displacements, double factor);
 
 /// Side of the square that a particle stands for: the case's spacing, else from mass and density, else the
 /// usual distance to the next particle [m].
@@ -22,13 +29,21 @@ std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame);
 /// particle_cells, a little enlarged as the squares are.
 std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& starts);
 
-/// The same extent for all of them, rounded, or centred at zero for a diverging map.
-ValueRange shared_range(const std::vector<std::vector<double>>& values, ColourMap map);
+/// A range for the values of several runs, or of several instants of one: rounded, or centred at zero for a
+/// diverging map. Without single spots and, of three or more runs, without those that go far beyond the
+/// others.
+ValueRange range_of_runs(const std::vector<std::vector<double>>& values, ColourMap map);
+ValueRange range_of_instants(const std::vector<ValueRange>& robust_extents, ColourMap map);
+
+/// Label, map and, for the soils' numbers, their names. `range`: as the colours have it.
+ColourScale scale_of(const FieldSelection& field, const ShownUnit& unit, const std::optional<Case>& scene,
+                     std::optional<ValueRange> range);
 
 /// "t = 1.25 s".
 std::string time_text(double time);
 
-/// "proposed, without kernel correction, undamped"; empty without a case.
-std::string formulation_text(const FinishedRun& run);
+/// "t = 1.25 s, proposed, without kernel correction, undamped": without what `title` says already; with
+/// ", unstable" where the run ended so. Only the time without a case.
+std::string panel_subtitle(const FinishedRun& run, double time, const std::string& title);
 
 }  // namespace porosph

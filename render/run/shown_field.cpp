@@ -42,6 +42,27 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// What stands before and after the direction.
+const std::map<std::string, std::pair<std::string, std::string>>& known_words() {
+  static const std::map<std::string, std::pair<std::string, std::string>> words = {
+      {"EffectiveStress", {"Effective ", "stress"}},
+      {"TotalStress", {"Total ", "stress"}},
+      {"Displacement", {"", "displacement"}},
+      {"Velocity", {"", "velocity"}},
+      {"PorePressure", {"", "pore pressure"}},
+      {"Density", {"", "density"}},
+      {"DeviatoricStress", {"Deviatoric ", "stress"}},
+      {"ExcessStress", {"Excess over theory, ", "effective stress"}},
+      {"Strain", {"", "strain"}},
+      {"MeanStress", {"Mean effective ", "stress"}},
+      {"SoilId", {"", "soils"}},
+      {"Mass", {"", "mass of the particles"}},
+      {"SmoothingLength", {"", "smoothing length"}},
+      {"ParticleId", {"", "numbers of the particles"}},
+      {"VonMisesStress", {"von Mises ", "stress"}}};
+  return words;
+}
+
 }  // namespace
 
 std::string file_name(const std::string& text) {
@@ -97,7 +118,7 @@ ShownUnit shown_unit(const std::string& field, double largest) {
 std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) {
   static const std::map<std::string, std::string> symbols = {{"EffectiveStress", "σ'"},
                                                              {"TotalStress", "σ"},
-                                                             {"PorePressure", "p_w"},
+                                                             {"PorePressure", "p_{w}"},
                                                              {"Displacement", "u"},
                                                              {"Velocity", "v"},
                                                              {"Density", "ρ"},
@@ -108,7 +129,8 @@ std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) 
                                                              {"Strain", "ε"},
                                                              {"MeanStress", "tr σ' / 3"},
                                                              {"VonMisesStress", "q"}};
-  static const std::map<std::string, std::string> principal = {{"S1", "σ'₁"}, {"S2", "σ'₂"}, {"S3", "σ'₃"}};
+  static const std::map<std::string, std::string> principal = {
+      {"S1", "σ'_{1}"}, {"S2", "σ'_{2}"}, {"S3", "σ'_{3}"}};
   if (const auto p = principal.find(selection.component);
       p != principal.end() && selection.name == "PrincipalStress")
     return fmt::format("{} [{}]", p->second, unit.name);
@@ -116,7 +138,7 @@ std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) 
   std::string label = found == symbols.end() ? selection.name : found->second;
   if (found == symbols.end() && !selection.component.empty()) label += " " + selection.component;
   if (found != symbols.end() && !selection.component.empty())
-    label += (is_stress(selection.name) ? "" : "_") + lower(selection.component);
+    label += "_{" + lower(selection.component) + "}";
   if (selection.component.empty() && (selection.name == "Displacement" || selection.name == "Velocity"))
     label = "|" + label + "|";
   return unit.name.empty() ? label : label + " [" + unit.name + "]";
@@ -126,18 +148,7 @@ std::string shown_name(const FieldSelection& selection) {
   static const std::map<std::string, std::string> directions = {{"XX", "horizontal "},   {"YY", "vertical "},
                                                                 {"ZZ", "out-of-plane "}, {"XY", "shear "},
                                                                 {"X", "horizontal "},    {"Y", "vertical "}};
-  static const std::map<std::string, std::pair<std::string, std::string>> words = {
-      {"EffectiveStress", {"Effective ", "stress"}},
-      {"TotalStress", {"Total ", "stress"}},
-      {"Displacement", {"", "displacement"}},
-      {"Velocity", {"", "velocity"}},
-      {"PorePressure", {"", "pore pressure"}},
-      {"Density", {"", "density"}},
-      {"DeviatoricStress", {"Deviatoric ", "stress"}},
-      {"ExcessStress", {"Excess over theory, ", "effective stress"}},
-      {"Strain", {"", "strain"}},
-      {"MeanStress", {"Mean effective ", "stress"}},
-      {"VonMisesStress", {"von Mises ", "stress"}}};
+  const auto& words = known_words();
   static const std::map<std::string, std::string> principal = {{"S1", "Largest principal effective stress"},
                                                                {"S2", "Middle principal effective stress"},
                                                                {"S3", "Smallest principal effective stress"}};
@@ -152,6 +163,12 @@ std::string shown_name(const FieldSelection& selection) {
       word->second.first + (selection.component.empty() ? "" : direction->second) + word->second.second;
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
+}
+
+std::string name_in_sentence(const FieldSelection& selection) {
+  const std::string name = shown_name(selection);
+  const bool has_words = !name.starts_with(selection.name) || known_words().contains(selection.name);
+  return has_words ? lower(name.substr(0, 1)) + name.substr(1) : name;
 }
 
 ColourMap usual_map(const FieldSelection& selection) {

@@ -37,11 +37,15 @@ struct ShownUnit {
 /// file.
 ShownUnit shown_unit(const std::string& field, double largest);
 
-/// The usual symbol and the unit: "σ'yy [kPa]"; the field's own name where it is not one of ours.
+/// The usual symbol and the unit, subscripts as Canvas draws them: "σ'_{yy} [kPa]"; the field's own name
+/// where it is not one of ours.
 std::string shown_label(const FieldSelection& selection, const ShownUnit& unit);
 
 /// In words: "Effective vertical stress"; the field's own name where it is not one of ours.
 std::string shown_name(const FieldSelection& selection);
+
+/// As it stands within a sentence: "effective vertical stress".
+std::string name_in_sentence(const FieldSelection& selection);
 
 /// Diverging for what is zero at rest and has either sign (shear, sideways motion), else sequential.
 ColourMap usual_map(const FieldSelection& selection);

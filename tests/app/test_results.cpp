@@ -123,8 +123,17 @@ TEST_CASE("compare refuses what cannot be compared") {
   const Workplace& place = computed();
   const Outcome time = place.porosph("compare consistent shorter --out no");
   CHECK(time.status == 2);
-  CHECK_THAT(time.err, Contains("consistent ends at 1 s and shorter at 0.5 s") && Contains("--time common"));
+  CHECK_THAT(time.err, Contains("consistent would be compared at 1 s with shorter at 0.5 s") &&
+                           Contains("--time common"));
   CHECK(place.porosph("compare consistent shorter --time common --out yes").status == 0);
+  const Outcome different = place.porosph(
+      "compare consistent shorter --allow-different-times --label one --label 'two, shorter' --out "
+      "different_times");
+  CHECK(different.status == 0);
+  CHECK_THAT(different.out, Contains("one at 1 s and two, shorter at 0.5 s, times that differ") &&
+                                Contains("Effective vertical stress"));
+  CHECK_THAT(text_of(place.folder() / "different_times/comparison.csv"),
+             Contains("one,\"two, shorter\",EffectiveStress_YY,") && Contains(",1,0.5\n"));
   const Outcome body = place.porosph("compare consistent other --out no");
   CHECK(body.status == 2);
   CHECK_THAT(body.err, Contains("outlines of soil 'sand' differ"));

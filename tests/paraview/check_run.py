@@ -180,6 +180,8 @@ check_data(other, [f for f in COMPONENTS if f in "Displacement Velocity Effectiv
 print("The scripts beside them")
 check_scripts(run, other, drawdown, pictures)
 for arguments in (["check_range", run, other, os.path.join(pictures, "compare.png")],
-                  ["check_moving_level", drawdown, os.path.join(pictures, "falling.png")]):
+                  ["check_moving_level", drawdown, os.path.join(pictures, "falling.png")],
+                  ["check_section", run, os.path.join(pictures, "section.png")],
+                  ["check_numpy", run, ""]):
     subprocess.run([os.environ["PVPYTHON"], os.path.join(os.path.dirname(__file__), "check_script.py"), *arguments], check=True)
 print("ParaView shows all of it; look at the pictures in " + pictures)

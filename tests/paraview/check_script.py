@@ -1,5 +1,6 @@
 """What the scripts beside a series show, each in a pvpython of its own:
-check_script.py check_range RUN OTHER_RUN PICTURE, or check_script.py check_moving_level DRAWDOWN PICTURE"""
+check_script.py check_range RUN OTHER_RUN PICTURE, or check_moving_level, check_section or check_numpy RUN PICTURE"""
+import math
 import os
 import sys
 
@@ -47,15 +48,41 @@ def check_range(run, other, picture):
     """The colours of the comparison, against the values of both runs at all times."""
     names = start(os.path.join(run, "compare_in_paraview.py"), other, picture)
     values = []
-    for reader, display, bounds in names["shown"]:
+    for reader, shown, display, bounds in names["shown"]:
         for time in reader.TimestepValues:
             reader.UpdatePipeline(time)
             array = first_block(servermanager.Fetch(reader)).GetPointData().GetArray("EffectiveStress")
-            values += array.GetRange(1)
-    points = GetColorTransferFunction("EffectiveStress").RGBPoints
-    ends = points[0], points[-4]
-    require(all(abs(a - b) < 1e-6 * abs(b) for a, b in zip(ends, (min(values), max(values)))),
-            f"one range of colours for all times of both runs, {ends[0]:g} to {ends[1]:g} Pa")
+            values += [end / 1000 for end in array.GetRange(1)]
+    points = GetColorTransferFunction("EffectiveStress_YY [kPa]").RGBPoints
+    ends, step = (points[0], points[-4]), 0.11 * (max(values) - min(values))
+    require(0 <= min(values) - ends[0] < step and 0 <= ends[1] - max(values) < step,
+            f"one range of colours for all times of both runs, {ends[0]:g} to {ends[1]:g} kPa, with round ends")
+    last = min(max(reader.TimestepValues) for reader, *rest in names["shown"])
+    require(GetAnimationScene().AnimationTime == last, f"both runs are shown at {last:g} s, which both have")
+
+
+def check_section(run, picture):
+    """The section that the script prepares, against the particle nearest to its middle."""
+    names = start(os.path.join(run, "open_in_paraview.py"), picture)
+    require(GetActiveSource() == names["values"], "what is shown is active, so that its colours can be changed")
+    section = FindSource("Section")
+    section.UpdatePipeline(GetAnimationScene().AnimationTime)
+    line = first_block(servermanager.Fetch(section))
+    data = first_block(servermanager.Fetch(names["values"]))
+    middle = line.GetNumberOfPoints() // 2
+    place = line.GetPoint(middle)
+    near = min(range(data.GetNumberOfPoints()), key=lambda i: math.dist(data.GetPoint(i), place))
+    name = "EffectiveStress_YY [kPa]"
+    found, wanted = line.GetPointData().GetArray(name).GetValue(middle), data.GetPointData().GetArray(name).GetValue(near)
+    require(wanted < -10 and abs(found - wanted) < 0.05 * abs(wanted),
+            f"the section has {found:.1f} kPa in its middle, the particle there {wanted:.1f} kPa")
+
+
+def check_numpy(run, picture):
+    """What Debian's own modules offer beside ParaView's."""
+    import matplotlib
+    import numpy
+    require(numpy.linalg.norm([3, 4]) == 5 and matplotlib.__version__ > "3", "numpy and matplotlib are there")
 
 
 globals()[sys.argv[1]](*sys.argv[2:])

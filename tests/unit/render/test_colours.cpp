@@ -115,3 +115,33 @@ TEST_CASE("values get the colours of their place in the range") {
   CHECK(colours[4] == table[128]);
   CHECK(colours[5] == invalid_colour(ColourMap::viridis));
 }
+
+TEST_CASE("a range does not follow single spots") {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(0.1 * i);
+  CHECK(robust_extent(values) == finite_extent(values));
+  values[500] = -1e4;
+  values[501] = NAN;
+  const ValueRange core = robust_extent(values);
+  CHECK(core.low == Approx(0.4).margin(0.2));
+  CHECK(core.high == Approx(99.5).margin(0.2));
+  CHECK(robust_extent(std::vector<double>{1, 2, 1e9}).high == 1e9);  // too few to tell
+}
+
+TEST_CASE("one run far beyond the others does not spoil their range") {
+  const std::vector<ValueRange> runs = {{-100, 0}, {-110, 5}, {-200, 60}, {-105, 0}};
+  CHECK(usual_extent(runs) == ValueRange{-110, 5});
+  CHECK(usual_extent(std::span(runs).last(2)) == ValueRange{-200, 60});  // of two, which is the odd one?
+  CHECK(usual_extent(std::vector<ValueRange>{{0, 0}, {0, 0}, {0, 3}}) == ValueRange{0, 3});
+}
+
+TEST_CASE("tension has colours that compression does not have") {
+  const FixedScale scale{.label = "", .map = ColourMap::viridis, .range = {-200, 50}};
+  const std::vector<double> values = {-200, -100, -1, 5, 49};
+  const auto colours = colours_of(values, scale);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(colours[i][0] <= colours[i][1] + 70);  // violet, green, yellow
+  CHECK(colours[0] == colour_table(ColourMap::viridis).front());
+  CHECK(colours[4][0] > 2 * colours[4][1] + 60);  // dark red
+  const auto plain = colours_of(values, {.label = "", .map = ColourMap::viridis, .range = {-200, 0}});
+  CHECK(plain[4] == colour_table(ColourMap::viridis).back());
+}

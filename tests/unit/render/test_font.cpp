@@ -31,3 +31,10 @@ TEST_CASE("a text that is too long is made smaller until it fits") {
   CHECK(text_extent(text, size).x <= 120);
   CHECK(fitting_size("short", 15, 120) == 15);
 }
+
+TEST_CASE("subscripts take the room of smaller letters, without their signs") {
+  CHECK(text_extent("u_{y}", 20).x < text_extent("uy", 20).x + 2);
+  CHECK(text_extent("u_{y}", 20).x > text_extent("u", 20).x + 4);
+  CHECK(text_extent("my_slope", 20).x > text_extent("myslope", 20).x);  // a name keeps its underscore
+  CHECK(text_extent("a_{b", 20).x > text_extent("ab", 20).x + 10);
+}

@@ -57,6 +57,14 @@ TEST_CASE("wide bodies are stacked under one bar, tall ones stand side by side")
   CHECK(tall.bars.size() == 1);
 }
 
+TEST_CASE("a last row that is not full has no bar of its own, and no column is kept for one") {
+  ContourSize size;
+  size.columns = 3;
+  const ContourLayout layout = lay_out(space_of(15, 15, std::vector<bool>(5, false)), size);
+  CHECK(layout.bars.size() == 1);
+  CHECK(layout.frames[1].x - layout.frames[0].right() == layout.frames[2].x - layout.frames[1].right());
+}
+
 TEST_CASE("a panel with its own scale has its own bar") {
   const ContourLayout layout = lay_out(space_of(44.4, 11, {false, false, true}), {});
   REQUIRE(layout.bars.size() == 2);

@@ -1,13 +1,17 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "render/report/html.hpp"
 #include "render/report/settings.hpp"
 #include "render/report/threshold.hpp"
+#include "render/run/frame_pair.hpp"
+#include "render/run/history_lines.hpp"
 #include "render/run/material_points.hpp"
 #include "render/run/norms.hpp"
+#include "render/run/run_panel.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
 
@@ -66,11 +70,15 @@ TEST_CASE("values are a component, a scalar or a magnitude") {
 }
 
 TEST_CASE("people read stress in kPa and small displacements in mm") {
-  CHECK(shown_label({"EffectiveStress", "YY"}, shown_unit("EffectiveStress", 1e5)) == "σ'yy [kPa]");
-  CHECK(shown_label({"Displacement", "Y"}, shown_unit("Displacement", 0.02)) == "u_y [mm]");
+  CHECK(shown_label({"EffectiveStress", "YY"}, shown_unit("EffectiveStress", 1e5)) == "σ'_{yy} [kPa]");
+  CHECK(shown_label({"Displacement", "Y"}, shown_unit("Displacement", 0.02)) == "u_{y} [mm]");
   CHECK(shown_label({"Displacement", ""}, shown_unit("Displacement", 2)) == "|u| [m]");
   CHECK(shown_label({"Temperature", ""}, shown_unit("Temperature", 300)) == "Temperature");
   CHECK(shown_unit("TotalStress", 1).factor == 1e-3);
+  CHECK(shown_name({"EffectiveStress", "YY"}) == "Effective vertical stress");
+  CHECK(name_in_sentence({"EffectiveStress", "YY"}) == "effective vertical stress");
+  CHECK(name_in_sentence({"Density", ""}) == "density");
+  CHECK(name_in_sentence({"MyField", ""}) == "MyField");
 }
 
 TEST_CASE("runs of different particles are compared exactly where values are linear") {
@@ -139,6 +147,7 @@ TEST_CASE("text cannot become part of the page") {
   CHECK(html::escaped("<b a=\"1\" c='2'>&") == "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
   CHECK_THAT(html::table({{"<th>", "v"}, {"a", "<script>"}}),
              !Contains("<script") && Contains("&lt;script&gt;"));
+  CHECK_THAT(html::table({{"Probe"}, {"A: σ'_{yy} <b>"}}), Contains("σ&#39;<sub>yy</sub> &lt;b&gt;"));
   CHECK_THAT(html::figure("a.png", "\"x\"", "<i>"), Contains("alt=\"&quot;x&quot;\"") && !Contains("<i>"));
 }
 
@@ -155,4 +164,118 @@ TEST_CASE("settings that differ are found by their keys") {
   CHECK(std::stod(named("soil.0.youngs_modulus")->values[1]) == 2e7);
   REQUIRE(named("formulation.motion") != differences.end());
   CHECK(named("particles.spacing") == differences.end());
+}
+
+TEST_CASE("settings are shown as people write them") {
+  const Case a = read_case(POROSPH_SOURCE_DIR "/cases/foundation.toml"),
+             b = read_case(POROSPH_SOURCE_DIR "/cases/foundation.toml",
+                           {"time.courant=0.1", "water.level=15.06", "loading.damping=0.06"});
+  std::map<std::string, std::string> values;
+  for (const DifferingSetting& d : differing_settings({a, b})) values[d.key] = d.values[1];
+  CHECK(values["time.courant"] == "0.1");
+  CHECK(values["water.level"] == "15.06");
+  CHECK(values["loading.damping"] == "0.06");
+}
+
+namespace {
+
+FinishedRun run_of(const std::string& folder, const std::vector<double>& times, RunStatus status,
+                   double time_step = 1e-3) {
+  FinishedRun run;
+  run.folder = folder;
+  run.name = folder;
+  for (const double time : times) run.series.frames.push_back({.time = time, .file = ""});
+  run.summary.emplace();
+  run.summary->status = status;
+  run.summary->time = times.back();
+  run.summary->time_step = time_step;
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("states of two times are not compared") {
+  const FinishedRun broken = run_of("broken", {0, 0.0919}, RunStatus::unstable),
+                    whole = run_of("whole", {0, 0.0502, 0.1002}, RunStatus::completed),
+                    fitting = run_of("fitting", {0, 0.0502, 0.0925, 0.1002}, RunStatus::completed),
+                    rest = run_of("rest", {0, 3}, RunStatus::equilibrium);
+  CHECK_THROWS_WITH(require_fair(broken, whole, last_frames(broken, whole)),
+                    Contains("broken would be compared at 0.0919 s with whole at 0.1002 s"));
+  CHECK_THROWS_WITH(common_frames(broken, whole), Contains("output.times=[0.0919]"));
+  const FramePair common = common_frames(fitting, broken);
+  CHECK(common.a == 2);
+  CHECK(common.b == 1);
+  CHECK(is_fair(fitting, broken, common));
+  CHECK(common_frames(whole, fitting).a == 2);
+  CHECK(is_fair(rest, whole, last_frames(rest, whole)));
+  CHECK_FALSE(is_fair(rest, whole, {0, 2}));  // not at rest yet
+}
+
+TEST_CASE("runs are called by their labels") {
+  std::vector<FinishedRun> runs = {run_of("a/x", {1}, RunStatus::completed),
+                                   run_of("b/x", {1}, RunStatus::completed)};
+  runs[0].name = runs[1].name = "x";
+  CHECK(run_labels(runs) == std::vector<std::string>{"a/x", "b/x"});
+  CHECK_THROWS_WITH(set_labels(runs, {"one"}), Contains("1 time for 2 runs"));
+  set_labels(runs, {"one", "two"});
+  CHECK(run_labels(runs) == std::vector<std::string>{"one", "two"});
+}
+
+TEST_CASE("a history says where its run ended") {
+  ChartSeries line{.label = "run", .x = {0, 1}, .y = {0, 1}};
+  mark_end(line, run_of("run", {0, 0.0919118}, RunStatus::unstable));
+  CHECK(line.label == "run, unstable at 0.0919 s");
+  CHECK(line.end == LineEnd::broken);
+}
+
+TEST_CASE("a subtitle does not repeat the title") {
+  FinishedRun run = run_of("x", {0, 0.5}, RunStatus::unstable);
+  run.scene.emplace();
+  run.scene->formulation.motion = Motion::proposed;
+  run.scene->formulation.kernel_correction = false;
+  run.scene->loading.damping = 0;
+  run.scene->loading.adaptive_damping = false;
+  CHECK(panel_subtitle(run, 0, "x") == "t = 0 s, proposed, without kernel correction, undamped");
+  CHECK(panel_subtitle(run, 0.5, "proposed, undamped") ==
+        "t = 0.5 s, unstable, without kernel correction");
+}
+
+TEST_CASE("soils are categories by their names") {
+  Case scene;
+  scene.soils.resize(2);
+  scene.soils[0].name = "clay";
+  scene.soils[1].name = "sand";
+  const ColourScale scale = scale_of({"SoilId", ""}, {"", 1}, scene, std::nullopt);
+  CHECK(scale.categories == std::vector<std::string>{"clay", "sand"});
+  const std::vector<double> values = {0, 1, 0};
+  const auto colours = colours_of(values, fix_scale(scale, values));
+  CHECK(colours[0] == colours[2]);
+  CHECK(colours[0] != colours[1]);
+}
+
+TEST_CASE("with the soil's deformation drawn larger, its outline and probes move along") {
+  Case scene;
+  scene.particles.spacing = 0.5;
+  scene.soils.resize(1);
+  scene.soils[0].polygon = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};
+  ContourPanel panel;
+  panel.scenery = scenery_of(scene);
+  panel.scenery.probes = {{"A", {1, 1}}};
+  std::vector<Point> starts, displacements;
+  for (double y = 0.25; y < 2; y += 0.5)
+    for (double x = 0.25; x < 4; x += 0.5) {
+      starts.push_back({x, y});
+      displacements.push_back({0.01 * y, -0.02 * y});  // linear: exact to the outline
+    }
+  deform_surroundings(panel, scene, starts, displacements, 50);
+  CHECK((panel.scenery.probes[0].position - Point(1.5, 0)).norm() < 1e-9);
+  double lowest = 1e9, right = 0;
+  for (const Point& corner : panel.scenery.soils[0].polygon)
+    lowest = std::min(lowest, corner.y()), right = std::max(right, corner.x());
+  CHECK(lowest == Approx(0).margin(1e-9));  // y - 50 * 0.02 y: the whole body is flat
+  CHECK(right == Approx(5));
+  REQUIRE(panel.particles.cells.size() == starts.size());
+  const double half = 0.5 * 1.03 * 0.5;  // cells overlap a little
+  const Point corner = panel.particles.cells[0][2];
+  CHECK((corner - Point(half + 0.5 * half, 0)).norm() < 1e-9);
 }

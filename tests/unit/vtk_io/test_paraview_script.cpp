@@ -25,7 +25,9 @@ TEST_CASE("the script colours by the vertical effective stress") {
   CHECK(run["folder"] == "/a/b");
   CHECK(run["field"] == "EffectiveStress");
   CHECK(run["component"] == "YY");
-  CHECK(run["unit"] == " [Pa]");
+  CHECK(run["unit"] == "kPa");
+  CHECK(run["factor"] == 1e-3);
+  CHECK(run["smoothing_length"] == 0);  // unknown
 }
 
 TEST_CASE("without effective stress the script colours by the first field, or by none") {
@@ -56,6 +58,11 @@ TEST_CASE("the script knows probes and water") {
   CHECK(run["water"][0][0] < -1e9);  // everywhere: JSON has no infinity
   CHECK(run["water"][1][2] == 5);
   CHECK(run["level_over_time"].empty());
+  scene.soils = {{.name = "s", .polygon = {{0, 0}, {3, 0}, {0, 2}}, .holes = {{{1, 1}}}}};
+  scene.boundaries = {{BoundaryKind::fixed, {0, 0}, {3, 0}}};
+  const auto drawn = run_of(paraview_script("", "a", example_frame(), scene));
+  CHECK(drawn["outlines"] == nlohmann::json::parse("[[0.0, 0.0, 3.0, 0.0, 0.0, 2.0], [1.0, 1.0]]"));
+  CHECK(drawn["supports"] == nlohmann::json::parse(R"([["fixed", 0.0, 0.0, 3.0, 0.0]])"));
 
   scene.water = {.stretches = {{-never, never, 1}}, .level_over_time = {{0, 1}, {2, 3}}};
   const auto rising = run_of(paraview_script("", "a", example_frame(), scene));
@@ -73,4 +80,11 @@ TEST_CASE("a script of two runs names their folders") {
   CHECK_THAT(paraview_comparison_script("/runs/c", "../a", "../b b"),
              Contains("\nFOLDERS = [\"../a\",\"../b b\"]\n") && Contains("\nWRITTEN_IN = \"/runs/c\" "));
   CHECK_THAT(paraview_comparison_script("/", ".", ""), Contains("\nFOLDERS = [\".\",\"\"]\n"));
+}
+
+TEST_CASE("a script stands alone") {
+  for (const std::string& script :
+       {paraview_script("/a", "a.pvd", example_frame()), paraview_comparison_script("/a", ".", "")}) {
+    CHECK_THAT(script, !Contains("porosph_common") && Contains("\ndef show_run(") && Contains("\nfinish("));
+  }
 }
