@@ -24,12 +24,6 @@ Colouring colouring_of(const Frame& frame) {
   return {first.name, first.components.empty() ? "" : first.components.front()};
 }
 
-/// "Pa"; empty for a field that is not one of ours.
-std::string unit_of(const std::string& field) {
-  const Field* known = find_field(field);
-  return known == nullptr || known->unit == "-" ? "" : std::string(known->unit);
-}
-
 /// A Python literal: JSON's escapes, numbers and lists are also Python's.
 std::string python(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -83,7 +77,7 @@ ScriptScene script_scene(const Case& scene) {
 std::string paraview_script(const std::filesystem::path& folder, const std::string& pvd, const Frame& frame,
                             const ScriptScene& scene) {
   const auto [field, component] = colouring_of(frame);
-  const std::string unit = unit_of(field);
+  const std::string unit = field_unit(field);
   const bool in_kilo = unit == "Pa";
   nlohmann::json run = {
       {"series", pvd},

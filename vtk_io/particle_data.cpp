@@ -17,7 +17,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "solver/output/fields.hpp"
+#include "solver/particles/field_table.hpp"
 
 namespace porosph {
 namespace {
@@ -39,17 +39,10 @@ vtkSmartPointer<vtkDataArray> borrow(const std::vector<std::int32_t>& values, in
   return borrow<vtkTypeInt32Array>(values, width);
 }
 
-/// Empty for a number, and for a field that is not one of ours.
-std::string unit_of(const std::string& field) {
-  const auto& known = known_fields();
-  const auto found = std::ranges::find(known, field, &FieldDescription::name);
-  return found == known.end() || found->unit == "-" ? "" : std::string(found->unit);
-}
-
 vtkSmartPointer<vtkDataArray> array_of(const FrameField& field) {
   auto array = std::visit([&](const auto& values) { return borrow(values, field.width()); }, field.values);
   array->SetName(field.name.c_str());
-  if (const std::string unit = unit_of(field.name); !unit.empty())
+  if (const std::string unit = field_unit(field.name); !unit.empty())
     array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
   for (int c = 0; c < static_cast<int>(field.components.size()); ++c) {
     array->SetComponentName(c, field.components[c].c_str());

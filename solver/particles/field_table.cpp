@@ -66,4 +66,9 @@ const Field* find_field(std::string_view name) {
   return found == table.end() ? nullptr : &*found;
 }
 
+std::string field_unit(std::string_view name) {
+  const Field* field = find_field(name);
+  return field == nullptr || field->unit == "-" ? "" : std::string(field->unit);
+}
+
 }  // namespace porosph

@@ -65,4 +65,7 @@ std::vector<std::string> optional_field_names();
 /// The field of this name, or null.
 const Field* find_field(std::string_view name);
 
+/// Its unit, such as "Pa"; empty for a plain number and for a field that the table does not have.
+std::string field_unit(std::string_view name);
+
 }  // namespace porosph
