@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "render/report/threshold.hpp"
 #include "render/run/norms.hpp"
+#include "vtk_io/run_folder/threshold.hpp"
 
 namespace porosph {
 

@@ -6,22 +6,16 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "render/run/shown_field.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
-#include "solver/simulation/probe.hpp"
+#include "solver/analysis/frame_values.hpp"
 
 namespace porosph {
 namespace {
-
-bool has(const Frame& frame, const std::string& name) {
-  return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const auto& f) { return f.name == name; });
-}
 
 /// The particles in the order of their numbers, or as they come where the frame has none.
 std::vector<std::size_t> in_order(const Frame& frame) {
   std::vector<std::size_t> order(frame.points.size() / 3);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!has(frame, "ParticleId")) return order;
+  if (!has_field(frame, "ParticleId")) return order;
   const std::vector<double> ids = values_of(frame, {"ParticleId", ""});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ids[i] < ids[j]; });
   return order;
@@ -50,54 +44,6 @@ double smoothing_length(const FinishedRun& run) {
 }
 
 }  // namespace
-
-Sampler::Sampler(const std::vector<Point>& points, const std::vector<Point>& starts, double h) {
-  const NeighbourList list = find_neighbours(points, starts, 2 * h);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<Point> near;
-    for (std::int32_t b : list.of(i)) {
-      near.push_back(starts[static_cast<std::size_t>(b)]);
-      particles_.push_back(static_cast<std::size_t>(b));
-    }
-    if (!near.empty()) {
-      const auto weights = linear_weights(points[i], near, std::vector<double>(near.size(), 1.0), h);
-      weights_.insert(weights_.end(), weights.begin(), weights.end());
-    }
-    begin_.push_back(particles_.size());
-  }
-}
-
-Sampler::Sampler(const std::vector<std::size_t>& order) : particles_(order), weights_(order.size(), 1.0) {
-  begin_.resize(order.size() + 1);
-  std::iota(begin_.begin(), begin_.end(), std::size_t{0});
-}
-
-std::vector<double> Sampler::operator()(const std::vector<double>& values) const {
-  std::vector<double> out(begin_.size() - 1, 0.0);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (begin_[i] == begin_[i + 1]) out[i] = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) out[i] += weights_[k] * values[particles_[k]];
-  }
-  return out;
-}
-
-std::vector<Point> starts_of(const Frame& frame) {
-  if (!has(frame, "Displacement"))
-    throw std::runtime_error("comparing needs the field Displacement, which the series does not have");
-  const auto x = values_of(frame, {"Displacement", "X"}), y = values_of(frame, {"Displacement", "Y"});
-  std::vector<Point> starts(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    starts[i] = {frame.points[3 * i] - x[i], frame.points[3 * i + 1] - y[i]};
-  return starts;
-}
-
-std::vector<double> volumes_of(const Frame& frame) {
-  if (!has(frame, "Mass") || !has(frame, "Density")) return std::vector<double>(frame.points.size() / 3, 1.0);
-  std::vector<double> volumes = values_of(frame, {"Mass", ""});
-  const std::vector<double> densities = values_of(frame, {"Density", ""});
-  for (std::size_t i = 0; i < volumes.size(); ++i) volumes[i] /= densities[i];
-  return volumes;
-}
 
 MaterialPoints common_points(const FinishedRun& a, const Frame& frame_a, const FinishedRun& b,
                              const Frame& frame_b) {

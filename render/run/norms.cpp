@@ -4,61 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace porosph {
-namespace {
-
-const std::vector<FieldSelection> fields = {{"Displacement", "X"},     {"Displacement", "Y"},
-                                            {"EffectiveStress", "XX"}, {"EffectiveStress", "YY"},
-                                            {"EffectiveStress", "ZZ"}, {"EffectiveStress", "XY"},
-                                            {"TotalStress", "YY"},     {"PorePressure", ""}};
-
-bool has(const Frame& frame, const std::string& name) {
-  return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const auto& f) { return f.name == name; });
-}
-
-/// Root mean square of a field's largest component in the list.
-double scale_of(const Frame& frame, const std::string& name) {
-  double scale = 0;
-  for (const FieldSelection& f : fields)
-    if (f.name == name) scale = std::max(scale, largest_of(values_of(frame, f)));
-  return scale;
-}
-
-}  // namespace
-
-FieldNorms norms(const FieldSelection& field, const std::vector<double>& values,
-                 const std::vector<double>& reference, const std::vector<Point>& at,
-                 const std::vector<double>& volumes, double scale) {
-  FieldNorms n{.field = field};
-  double difference = 0, whole = 0, volume = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double d = values[i] - reference[i];
-    difference += volumes[i] * d * d;
-    whole += volumes[i] * reference[i] * reference[i];
-    volume += volumes[i];
-    if (std::abs(d) > n.max_abs || !std::isfinite(d)) n.max_abs = std::abs(d), n.where = at[i];
-    if (!std::isfinite(d)) break;
-  }
-  const bool is_zero = std::sqrt(whole / volume) <= 1e-9 * scale;
-  n.relative_l2 = is_zero ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(difference / whole);
-  return n;
-}
-
-std::vector<FieldSelection> comparable_fields(const Frame& a, const Frame& b) {
-  std::vector<FieldSelection> both;
-  for (const FieldSelection& f : fields)
-    if (has(a, f.name) && has(b, f.name)) both.push_back(f);
-  return both;
-}
 
 std::vector<FieldNorms> run_norms(const Frame& a, const Frame& b, const MaterialPoints& points) {
   std::vector<FieldNorms> all;
   for (const FieldSelection& f : comparable_fields(a, b))
     all.push_back(norms(f, points.sample_a(values_of(a, f)), points.sample_b(values_of(b, f)), points.at,
-                        points.volumes, scale_of(b, f.name)));
+                        points.volumes, largest_component(b, f.name)));
   return all;
 }
 
@@ -132,7 +86,7 @@ std::vector<FieldNorms> fem_norms(const Frame& frame, const FemReference& fem,
   const Counted c = counted(frame, fem, left_out);
   std::vector<FieldNorms> all;
   for (const FieldSelection& f : comparable_fields(frame, frame))
-    all.push_back(norm_at(c, frame, fem, f, scale_of(frame, f.name)));
+    all.push_back(norm_at(c, frame, fem, f, largest_component(frame, f.name)));
   return all;
 }
 

@@ -1,7 +1,6 @@
 #include "render/run/shown_field.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,28 +10,6 @@
 
 namespace porosph {
 namespace {
-
-const FrameField& find_field(const Frame& frame, const std::string& name) {
-  std::vector<std::string> known;
-  for (const FrameField& field : frame.fields) {
-    if (field.name == name) return field;
-    known.push_back(field.name);
-  }
-  throw std::runtime_error(
-      fmt::format("the series has no field '{}'; it has {}", name, fmt::join(known, ", ")));
-}
-
-std::vector<double> as_doubles(const FrameField& field) {
-  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-                    field.values);
-}
-
-std::vector<double> magnitudes(const std::vector<double>& values, std::size_t width) {
-  std::vector<double> out(values.size() / width);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    for (std::size_t c = 0; c < width; ++c) out[i] = std::hypot(out[i], values[i * width + c]);
-  return out;
-}
 
 bool is_stress(const std::string& field) { return field == "PorePressure" || field.ends_with("Stress"); }
 
@@ -69,39 +46,6 @@ std::string file_name(const std::string& text) {
   std::string out = text;
   for (char& c : out)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
-  return out;
-}
-
-FieldSelection parse_selection(const std::string& text) {
-  const auto colon = text.find(':');
-  FieldSelection selection{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
-  if (selection.name.empty() || (colon != std::string::npos && selection.component.empty()) ||
-      selection.component.find(':') != std::string::npos)
-    throw std::runtime_error(
-        fmt::format("field '{}': must be NAME or NAME:COMPONENT, such as EffectiveStress:YY", text));
-  return selection;
-}
-
-std::vector<double> values_of(const Frame& frame, const FieldSelection& selection) {
-  const FrameField& field = find_field(frame, selection.name);
-  std::vector<double> values = as_doubles(field);
-  const auto width = static_cast<std::size_t>(field.width());
-  const auto& names = field.components;
-  if (selection.component.empty()) {
-    if (width > 1 && names.front() != "X")
-      throw std::runtime_error(fmt::format("field '{0}' is not a vector: choose a component, {0}:{1}",
-                                           field.name, fmt::join(names, fmt::format(", {}:", field.name))));
-    return width == 1 ? values : magnitudes(values, width);
-  }
-  const auto found = std::find(names.begin(), names.end(), selection.component);
-  if (found == names.end())
-    throw std::runtime_error(names.empty()
-                                 ? fmt::format("field '{}' is a scalar: it has no components", field.name)
-                                 : fmt::format("field '{}' has no component '{}'; it has {}", field.name,
-                                               selection.component, fmt::join(names, ", ")));
-  std::vector<double> out(values.size() / width);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = values[i * width + static_cast<std::size_t>(found - names.begin())];
   return out;
 }
 
@@ -176,13 +120,6 @@ ColourMap usual_map(const FieldSelection& selection) {
   if (selection.name == "ExcessStress") return ColourMap::cool_warm;
   return c == "XY" || c == "YZ" || c == "XZ" || c == "X" || c == "Z" ? ColourMap::cool_warm
                                                                      : ColourMap::viridis;
-}
-
-double largest_of(const std::vector<double>& values) {
-  double largest = 0;
-  for (double v : values)
-    if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
-  return largest;
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor) {

@@ -5,27 +5,13 @@
 #include <vector>
 
 #include "render/colour_map.hpp"
-#include "solver/output/frame.hpp"
+#include "solver/analysis/frame_values.hpp"
 
 namespace porosph {
-
-/// A scalar field, one component of a field, or the magnitude of a vector (no component).
-struct FieldSelection {
-  std::string name, component;
-  std::string text() const { return component.empty() ? name : name + "_" + component; }
-};
 
 /// A text as the name of a file in a folder: '_' takes the place of all but letters a to z, digits, '-' and
 /// '_', so that names that come from files never lead elsewhere.
 std::string file_name(const std::string& text);
-
-/// "EffectiveStress:YY", "Displacement", "PorePressure". Throws std::runtime_error if it is not NAME or
-/// NAME:COMPONENT.
-FieldSelection parse_selection(const std::string& text);
-
-/// One value per particle, as in the file (SI units). Throws std::runtime_error, naming what the frame has,
-/// for an unknown field or component, and for a tensor without a component.
-std::vector<double> values_of(const Frame& frame, const FieldSelection& selection);
 
 /// The unit that people read, and what to multiply the file's values with.
 struct ShownUnit {
@@ -49,9 +35,6 @@ std::string name_in_sentence(const FieldSelection& selection);
 
 /// Diverging for what is zero at rest and has either sign (shear, sideways motion), else sequential.
 ColourMap usual_map(const FieldSelection& selection);
-
-/// Largest absolute finite value; 0 if there is none.
-double largest_of(const std::vector<double>& values);
 
 /// Every value times `factor`.
 std::vector<double> scaled(std::vector<double> values, double factor);

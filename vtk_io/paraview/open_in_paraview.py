@@ -11,7 +11,7 @@ RUN["folders"] = [HERE, os.getcwd(), RUN["folder"]]
 view = GetActiveViewOrCreate("RenderView")
 start(GetLayout(view))
 reader, values, display, bounds = show_run(RUN, view)
-prepare_section(RUN, values, bounds)
+prepare_section(RUN, values)
 to_last_time([reader])
 one_range([display], RUN)
 look_at(view, bounds)

@@ -143,11 +143,12 @@ def show_run(run, view):
     return reader, values, display, bounds
 
 
-def prepare_section(run, values, bounds):
+def prepare_section(run, values):
     """A vertical section through the middle, not computed until it is shown: select it, move its line, press
     Apply. Stress along it is right inside, and too small within two smoothing lengths of walls and surfaces."""
     if not run["smoothing_length"]:
         return
+    bounds = values.GetDataInformation().GetBounds()
     x = 0.5 * (bounds[0] + bounds[1])
     section = SPHLineInterpolator(registrationName="Section", Input=values, Kernel="SPHCubicKernel", Source="Line")
     section.Source.Point1, section.Source.Point2 = [x, bounds[2], 0.0], [x, bounds[3], 0.0]

@@ -6,7 +6,7 @@
 
 #include "render/report/html.hpp"
 #include "render/report/settings.hpp"
-#include "render/report/threshold.hpp"
+#include "vtk_io/run_folder/threshold.hpp"
 #include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/material_points.hpp"

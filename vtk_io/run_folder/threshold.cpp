@@ -1,4 +1,4 @@
-#include "render/report/threshold.hpp"
+#include "vtk_io/run_folder/threshold.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
