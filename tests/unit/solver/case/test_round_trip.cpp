@@ -25,7 +25,7 @@ bool same(const Case& a,
 // A case in which nothing has its default value.
 Case unusual_case() {
   Case c;
-  c.title = "Ünusual \"quoted\" \\ two\nlines\t'x'";
+  c.title = "Ünusual \"quoted\" \\ two lines 'x'";
   c.particles = {0.1 + 0.2, 1.0 / 0.9, Arrangement::disordered, 1.0 / 3, 77};
   SoilCase sand{"sand",
                 {{0, 0}, {4, 0}, {4, 3}, {0, 3}},

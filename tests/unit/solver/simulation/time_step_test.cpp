@@ -23,7 +23,7 @@ double largest_step(const Simulation& s) {
 
 }  // namespace
 
-TEST_CASE("disordered particles vibrate no faster, over a step, than a lattice does", "[time]") {
+TEST_CASE("the fastest vibration of disordered particles is resolved as that of a lattice", "[time]") {
   Case scene = box_of_soil(10, 10);
   scene.time = {.end = 50, .courant = GENERATE(0.2, 1.0)};
   const Simulation lattice(scene);
@@ -36,9 +36,9 @@ TEST_CASE("disordered particles vibrate no faster, over a step, than a lattice d
   const auto angle = [](const Simulation& s) {
     return s.time_step() * highest_frequency(s.scene().formulation, s.model());
   };
-  // 1.7 stands for the lattice's corners, which this box of ten rows reaches within some percent
+  // A lattice without free corners has 1.7, for which Courant numbers are meant; one with them is faster.
   CHECK(angle(disordered) == Approx(1.7 * scene.time.courant).epsilon(1e-3));
-  CHECK(angle(lattice) == Approx(1.7 * scene.time.courant).epsilon(0.05));
+  CHECK(angle(lattice) == Approx(1.85 * scene.time.courant).epsilon(1e-3));
 }
 
 TEST_CASE("disorder that makes nothing stiffer leaves the Courant number", "[time]") {
