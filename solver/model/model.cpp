@@ -73,6 +73,8 @@ Model build_model(const Case& case_as_drawn) {
   check_every_soil_has_particles(scene, model.particles);
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
   model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
+  model.visibility =
+      Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));

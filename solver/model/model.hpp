@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/boundary/visibility.hpp"
 #include "solver/boundary/wall.hpp"
 #include "solver/boundary/water_face.hpp"
 #include "solver/case/case.hpp"
@@ -19,6 +20,7 @@ struct Model {
   Water water;
   std::vector<WaterFace> water_faces;  ///< where water presses on a free surface that it does not enter
   std::vector<Wall> walls;
+  Visibility visibility;         ///< who sees whom past outlines
   double spacing = 0;            ///< dx [m]
   double smoothing_length = 0;   ///< h [m]
   Vec2 gravity = Vec2::Zero();   ///< [m/s2]

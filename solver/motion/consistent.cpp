@@ -76,7 +76,8 @@ bool ConsistentDynamics::strangers_are_near() {
 #pragma omp parallel for schedule(static) reduction(|| : found)
   for (std::size_t a = 0; a < n; ++a)
     for (const std::int32_t b : now.of(a))
-      found = found || !reference_.stencils.are_neighbours(static_cast<std::int32_t>(a), b);
+      found = found || (!reference_.stencils.are_neighbours(static_cast<std::int32_t>(a), b) &&
+                        model_.visibility.sees(static_cast<std::int32_t>(a), b, model_.particles));
   return found;
 }
 

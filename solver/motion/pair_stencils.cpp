@@ -15,14 +15,14 @@ constexpr double inside = 1 - 1e-9;
 
 class Builder {
  public:
-  Builder(std::span<const Vec2> points, std::size_t count, std::span<const double> volumes,
+  Builder(std::span<const Vec2> points, NeighbourList list, std::span<const double> volumes,
           const CubicSpline<2>& kernel, bool single)
       : points_(points),
         volumes_(volumes),
         kernel_(kernel),
         single_(single),
-        count_(static_cast<std::int32_t>(count)),
-        list_(find_neighbours(points, count, inside * kernel.support())) {
+        count_(static_cast<std::int32_t>(list.begin.size()) - 1),
+        list_(std::move(list)) {
     double largest = 0;
     for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     rounding_ = 16 * std::numeric_limits<double>::epsilon() * largest;
@@ -148,9 +148,14 @@ bool PairStencils::are_neighbours(std::int32_t a, std::int32_t b) const {
   return std::binary_search(index.begin() + begin[a] + 1, index.begin() + begin[a + 1], b);
 }
 
-PairStencils make_pair_stencils(std::span<const Vec2> points, std::size_t count,
+NeighbourList stencil_neighbours(std::span<const Vec2> points, std::size_t count,
+                                 const CubicSpline<2>& kernel) {
+  return find_neighbours(points, count, inside * kernel.support());
+}
+
+PairStencils make_pair_stencils(std::span<const Vec2> points, NeighbourList neighbours,
                                 std::span<const double> volumes, const CubicSpline<2>& kernel, bool single) {
-  return Builder(points, count, volumes, kernel, single).build();
+  return Builder(points, std::move(neighbours), volumes, kernel, single).build();
 }
 
 }  // namespace porosph

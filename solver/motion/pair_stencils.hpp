@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/kernel/cubic_spline.hpp"
+#include "solver/neighbours/neighbour_list.hpp"
 #include "solver/tensor.hpp"
 
 namespace porosph {
@@ -69,9 +70,13 @@ struct PairStencils {
   bool are_neighbours(std::int32_t a, std::int32_t b) const;
 };
 
-/// The stencils of the first `count` points; `volumes` of all points [m2]. `single`: own lists are stored in
-/// single precision.
-PairStencils make_pair_stencils(std::span<const Vec2> points, std::size_t count,
+/// Those within the kernel's support of the first `count` points.
+NeighbourList stencil_neighbours(std::span<const Vec2> points, std::size_t count,
+                                 const CubicSpline<2>& kernel);
+
+/// The stencils of the first points, one for each list of neighbours; `volumes` of all points [m2]. `single`:
+/// own lists are stored in single precision.
+PairStencils make_pair_stencils(std::span<const Vec2> points, NeighbourList neighbours,
                                 std::span<const double> volumes, const CubicSpline<2>& kernel,
                                 bool single = false);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "solver/correction/kernel_correction.hpp"
 #include "solver/parallel.hpp"
@@ -19,6 +20,10 @@ PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, V
       soils_(model),
       skin_(0.2 * model.spacing),
       artificial_exponent_(kernel_.value(0) / kernel_.value(model.spacing)) {
+  if (!model.visibility.everywhere())
+    throw std::runtime_error(
+        "formulation.motion: the paper's forms do not know which particles see each other past slits, thin "
+        "walls and corners of walls; use \"consistent\", or a finer particles.spacing");
   make_virtual_particles();
 }
 

@@ -19,6 +19,18 @@ struct NeighbourList {
   }
 };
 
+/// Only those for which keep(a, b) holds.
+template <class Keep>
+NeighbourList kept(const NeighbourList& list, Keep&& keep) {
+  NeighbourList out;
+  for (std::size_t a = 0; a + 1 < list.begin.size(); ++a) {
+    for (const std::int32_t b : list.of(a))
+      if (keep(static_cast<std::int32_t>(a), b)) out.index.push_back(b);
+    out.begin.push_back(std::ssize(out.index));
+  }
+  return out;
+}
+
 /// The neighbours within `radius` [m], among all points, of the first `count` points.
 NeighbourList find_neighbours(std::span<const Vec2> points, std::size_t count, double radius);
 

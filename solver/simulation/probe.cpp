@@ -13,6 +13,8 @@ Probe::Probe(const ProbeCase& probe, const Model& model) : name_(probe.name), st
   const Vec2 place = start_ - model.origin;
   const std::vector<Vec2> here = {place};
   particles_ = find_neighbours(here, p.position, 2 * model.smoothing_length).index;
+  std::erase_if(particles_,
+                [&](std::int32_t b) { return !model.visibility.sees_from(start_ - model.origin, b, p); });
   if (particles_.empty())
     throw std::runtime_error(fmt::format("probe '{}' at ({:.12g}, {:.12g}) has no particle within {} m",
                                          name_, start_.x(), start_.y(), 2 * model.smoothing_length));

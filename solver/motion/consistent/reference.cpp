@@ -15,6 +15,18 @@ void make_volumes(const Particles& p, ReferenceConfiguration& r) {
   r.ghosts.fill<Mirrors::scalar>(r.volume);
 }
 
+/// Particles and ghosts that a particle's kernel reaches and that it sees.
+NeighbourList visible_neighbours(const Model& model, const ReferenceConfiguration& r,
+                                 const CubicSpline<2>& kernel) {
+  NeighbourList all = stencil_neighbours(r.points, r.particles(), kernel);
+  if (model.visibility.everywhere()) return all;
+  const auto n = static_cast<std::int32_t>(r.particles());
+  return kept(all, [&](std::int32_t a, std::int32_t b) {
+    return b < n ? model.visibility.sees(a, b, model.particles)
+                 : model.visibility.sees_ghost(a, b - n, r.ghosts, model.particles);
+  });
+}
+
 /// L of eq. (10), of the particles.
 std::vector<Mat2> corrections(const ReferenceConfiguration& r, bool corrected) {
   std::vector<Mat2> correction(r.particles(), Mat2::Identity());
@@ -61,7 +73,8 @@ ReferenceConfiguration make_reference(const Model& model, const FormulationCase&
   r.points = model.particles.position;
   r.ghosts = Ghosts(model.walls, 0, model.walls.size(), kernel.support(), r.points);
   make_volumes(model.particles, r);
-  r.stencils = make_pair_stencils(r.points, r.particles(), r.volume, kernel, formulation.single_precision);
+  r.stencils = make_pair_stencils(r.points, visible_neighbours(model, r, kernel), r.volume, kernel,
+                                  formulation.single_precision);
 
   std::vector<Mat2> correction = corrections(r, formulation.kernel_correction);
   if (formulation.closed_gradients && formulation.kernel_correction) close(model, r, correction);

@@ -1,0 +1,182 @@
+#include "solver/boundary/visibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/neighbours/neighbour_list.hpp"
+
+namespace porosph {
+namespace {
+
+double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
+
+/// Where the line from p to q crosses the edge a b, as a share of its length; infinite where it does not.
+double crossing(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) {
+  const Vec2 way = q - p, edge = b - a;
+  const double determinant = cross(way, edge);
+  if (std::abs(determinant) < 1e-12 * way.norm() * edge.norm()) return never;
+  const double t = cross(a - p, edge) / determinant, s = cross(a - p, way) / determinant;
+  constexpr double slack = 1e-9;
+  return t >= 0 && t <= 1 && s >= -slack && s <= 1 + slack ? t : never;
+}
+
+/// Even-odd rule over all rings.
+bool inside(const std::vector<Polygon>& rings, const Vec2& p) {
+  bool in = false;
+  for (const Polygon& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
+    }
+  return in;
+}
+
+double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (a + t * along - p).norm();
+}
+
+double distance_to_line(const Vec2& p, const Vec2& from, const Vec2& to) {
+  return std::abs(cross((to - from).normalized(), p - from));
+}
+
+/// Both ends of the edge lie on the line of the wall.
+bool on_line(const Vec2& a, const Vec2& b, const Wall& wall, double tolerance) {
+  return distance_to_line(a, wall.from, wall.to) < tolerance &&
+         distance_to_line(b, wall.from, wall.to) < tolerance;
+}
+
+/// Where a ghost was at the start.
+Vec2 start_of(std::size_t ghost, const Ghosts& ghosts, const Particles& p) {
+  const Vec2 parent = ghosts.stems_from_ghost(ghost)
+                          ? start_of(ghosts.parent(ghost) - ghosts.particles(), ghosts, p)
+                          : p.start[ghosts.parent(ghost)];
+  return ghosts.wall(ghost).mirrored(parent);
+}
+
+}  // namespace
+
+Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall> walls,
+                       const Particles& particles, double range, double spacing)
+    : range_(range), spacing_(spacing) {
+  const double tolerance = 1e-3 * spacing;
+  for (const SoilCase& soil : soils) {
+    std::vector<Polygon>& rings = rings_.emplace_back();
+    rings.push_back(soil.polygon);
+    rings.insert(rings.end(), soil.holes.begin(), soil.holes.end());
+    for (const Polygon& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+        const bool wall = std::any_of(walls.begin(), walls.end(),
+                                      [&](const Wall& w) { return on_line(a, b, w, tolerance); });
+        edges_.push_back({a, b, wall});
+      }
+  }
+  everywhere_ = !anything_is_hidden(walls, particles);
+}
+
+/// Inside or on an outline.
+bool Visibility::in_soil(const Vec2& p) const {
+  const double on_outline = 1e-6 * spacing_;
+  return std::any_of(rings_.begin(), rings_.end(), [&](const auto& rings) { return inside(rings, p); }) ||
+         std::any_of(edges_.begin(), edges_.end(),
+                     [&](const Edge& e) { return distance(p, e.a, e.b) < on_outline; });
+}
+
+Visibility::Exit Visibility::exit(const Vec2& from, const Vec2& to) const {
+  const Vec2 way = to - from;
+  const double step = 1e-4 * spacing_ / way.norm();
+  std::vector<std::pair<double, const Edge*>> crossed;
+  for (const Edge& edge : edges_)
+    if (const double t = crossing(from, to, edge.a, edge.b); t < never) crossed.emplace_back(t, &edge);
+  std::sort(crossed.begin(), crossed.end());
+  Exit found;
+  double left = never;
+  for (const auto& [t, edge] : crossed) {
+    const bool soil_beyond = t + step >= 1 || in_soil(from + (t + step) * way);
+    if (left == never && soil_beyond && t + step < 1) continue;
+    if (left == never) left = t;
+    if (t < left + step)
+      found.out.push_back(edge);
+    else if (soil_beyond) {
+      found.back = edge;
+      break;
+    }
+  }
+  return found;
+}
+
+/// A line that leaves the soil is free to pass around a corner that is open wide enough.
+bool Visibility::hides(const Exit& exit) const {
+  if (exit.stays()) return false;
+  constexpr double most_cosine = 0.5;  // of the angle that the soil leaves free: 60 degrees
+  for (const Edge* out : exit.out) {
+    if (exit.back == nullptr) continue;
+    const Vec2 ends[2][2] = {{out->a, out->b}, {exit.back->a, exit.back->b}};
+    for (int i = 0; i < 2; ++i)
+      for (int k = 0; k < 2; ++k) {
+        const Vec2 &corner = ends[0][i], &other = ends[1][k];
+        if ((corner - other).norm() > 1e-6 * spacing_) continue;
+        const Vec2 u = (ends[0][1 - i] - corner).normalized(), v = (ends[1][1 - k] - corner).normalized();
+        if (u.dot(v) < most_cosine) return false;
+      }
+  }
+  return true;
+}
+
+bool Visibility::sees(std::int32_t a, std::int32_t b, const Particles& p) const {
+  if (everywhere_) return true;
+  const Exit way_out = exit(p.start[a], p.start[b]);
+  if (!hides(way_out)) return true;
+  const bool contact =
+      (p.position[a] - p.position[b]).norm() < spacing_ && (p.start[a] - p.start[b]).norm() > spacing_;
+  return contact &&
+         std::none_of(way_out.out.begin(), way_out.out.end(), [](const Edge* e) { return e->wall; });
+}
+
+bool Visibility::sees_from(const Vec2& point, std::int32_t b, const Particles& p) const {
+  return everywhere_ || !hides(exit(point, p.start[b]));
+}
+
+bool Visibility::sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& ghosts,
+                            const Particles& p) const {
+  if (everywhere_) return true;
+  const Exit way_out = exit(p.start[a], start_of(ghost, ghosts, p));
+  for (std::size_t g = ghost;; g = ghosts.parent(g) - ghosts.particles()) {
+    for (const Edge* edge : way_out.out)
+      if (on_line(edge->a, edge->b, ghosts.wall(g), 1e-3 * spacing_)) return true;
+    if (!ghosts.stems_from_ghost(g)) return false;
+  }
+}
+
+/// Of the particles at the start, with a margin: what is within twice the range may come nearer later.
+bool Visibility::anything_is_hidden(std::span<const Wall> walls, const Particles& p) const {
+  const auto near_edge = [&](std::size_t a) {
+    return std::any_of(edges_.begin(), edges_.end(),
+                       [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < 2 * range_; });
+  };
+  std::vector<std::uint8_t> near(p.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < p.size(); ++a) near[a] = near_edge(a);
+  const auto n = static_cast<std::int32_t>(p.size());
+  std::vector<Vec2> points = p.start;
+  const Ghosts ghosts(walls, 0, walls.size(), range_, points);
+  const NeighbourList particles = find_neighbours(p.start, p.size(), 2 * range_);
+  const NeighbourList all = find_neighbours(points, p.size(), range_);
+  Visibility open = *this;
+  open.everywhere_ = false;
+  bool hidden = false;
+#pragma omp parallel for schedule(dynamic, 256) reduction(|| : hidden)
+  for (std::int32_t a = 0; a < n; ++a) {
+    if (!near[a]) continue;
+    for (const std::int32_t b : particles.of(a)) hidden = hidden || (near[b] && !open.sees(a, b, p));
+    for (const std::int32_t b : all.of(a))
+      hidden = hidden || (b >= n && !open.sees_ghost(a, b - n, ghosts, p));
+  }
+  return hidden;
+}
+
+}  // namespace porosph
