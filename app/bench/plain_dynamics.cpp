@@ -19,7 +19,8 @@ Mat2 mid_step_gradient(const Mat2& rate, double dt) {
 void update_soil(Model& model, std::size_t a, const Mat2& gradient, double dt) {
   Particles& p = model.particles;
   LinearElastic::History none;
-  p.stress[a] = std::get<LinearElastic>(model.soils[p.soil[a]].law()).step(p.stress[a], gradient, dt, none);
+  p.stress[a] =
+      std::get<LinearElastic>(model.soils[p.soil[a]].law()).step(p.stress[a], Gradient(gradient), dt, none);
   const double half = 0.5 * dt * gradient.trace();
   p.density[a] *= (1 - half) / (1 + half);
 }

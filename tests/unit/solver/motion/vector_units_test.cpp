@@ -117,7 +117,8 @@ TEST_CASE("a lattice shares its stencils, and irregular particles have their own
     std::vector<double> volumes(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) volumes[i] = p.volume(i);
     const CubicSpline<2> kernel(model.smoothing_length);
-    const PairStencils stencils = make_pair_stencils(p.position, p.size(), volumes, kernel);
+    const PairStencils stencils =
+        make_pair_stencils(p.position, stencil_neighbours(p.position, p.size(), kernel), volumes, kernel);
     const NeighbourList list = find_neighbours(p.position, p.size(), kernel.support());
     std::int64_t sharing = 0;
     for (std::int32_t a = 0; a < stencils.particles(); ++a) {

@@ -45,9 +45,9 @@ TEST_CASE("in a biaxial test the passive strength is Rankine's", "[soil]") {
     for (int k = 0; k < 60; ++k) {
       DruckerPrager::History copy = q;
       const double middle = 0.5 * (low + high);
-      (law.step(stress, {middle, 0, 0, -1e-5}, 1, copy).xx > s3 ? high : low) = middle;
+      (law.step(stress, Gradient{middle, 0, 0, -1e-5}, 1, copy).xx > s3 ? high : low) = middle;
     }
-    stress = law.step(stress, {0.5 * (low + high), 0, 0, -1e-5}, 1, q);
+    stress = law.step(stress, Gradient{0.5 * (low + high), 0, 0, -1e-5}, 1, q);
   }
   CHECK(stress.xx == Approx(s3).epsilon(1e-6));
   CHECK(-stress.yy == Approx(-s3 * kp + 2 * cohesion * std::sqrt(kp)).epsilon(1e-6));
@@ -59,10 +59,10 @@ TEST_CASE("yielding soil dilates by its dilation angle", "[soil]") {
   DruckerPrager::History q;
   Stress stress{-50e3, -50e3, -50e3, 0};
   // Pressure builds up where dilation is hindered: a long shear leaves only what the plastic volume makes.
-  for (int i = 0; i < 2000; ++i) stress = law.step(stress, {0, 5e-6, 5e-6, 0}, 1, q);
+  for (int i = 0; i < 2000; ++i) stress = law.step(stress, Gradient{0, 5e-6, 5e-6, 0}, 1, q);
   const Stress before = stress;
   const double plastic_before = q.plastic_strain;
-  stress = law.step(stress, {0, 5e-6, 5e-6, 0}, 1, q);
+  stress = law.step(stress, Gradient{0, 5e-6, 5e-6, 0}, 1, q);
   const double volume = -(stress.mean() - before.mean()) / elastic.bulk_modulus;
   const double multiplier = (q.plastic_strain - plastic_before) * std::numbers::sqrt3;
   CHECK(volume == Approx(3 * law.beta * multiplier).epsilon(1e-6).margin(1e-16));
@@ -75,12 +75,12 @@ TEST_CASE("no stress is left outside the surface, its apex or the tension cut-of
   const DruckerPrager weak = DruckerPrager::from_mohr_coulomb(elastic, cohesion, friction, 5, cut_off);
   const double apex = cohesion / std::tan(friction * radians);
   DruckerPrager::History q;
-  const Stress pulled = law.step({apex, apex, apex, 0}, {1e-3, 0, 0, 1e-3}, 1, q);
+  const Stress pulled = law.step(Stress{apex, apex, apex, 0}, Gradient{1e-3, 0, 0, 1e-3}, 1, q);
   CHECK(pulled.mean() == Approx(apex).epsilon(1e-12));
   CHECK(law.yield(pulled) < 1e-9 * apex);
   for (const Stress& start :
        {Stress{8e4, -3e4, 5e4, 7e4}, Stress{-9e4, 2e4, 1e4, -5e4}, Stress{9e5, 9e5, 9e5, 0}}) {
-    const Stress end = weak.step(start, {}, 1, q);
+    const Stress end = weak.step(start, Gradient(), 1, q);
     CHECK(weak.yield(end) < 1e-9 * 1e5);
     CHECK(end.mean() <= cut_off * (1 + 1e-12));
   }

@@ -58,7 +58,7 @@ TEST_CASE("a small step is the Jaumann rate of eq. (30)", "[soil]") {
     for (int b = 0; b < 3; ++b)
       for (int c = 0; c < 3; ++c) rate(a, b) += s(a, c) * w(b, c) + s(c, b) * w(a, c);
   const double dt = 1e-6;
-  const Eigen::Matrix3d quotient = (tensor(soil.step(old, some_gradient, dt, none)) - s) / dt;
+  const Eigen::Matrix3d quotient = (tensor(soil.step(old, Gradient(some_gradient), dt, none)) - s) / dt;
   CHECK((quotient - rate).norm() < 1e-5 * rate.norm());
 }
 
@@ -68,19 +68,19 @@ TEST_CASE("a rigid rotation turns the stress and nothing else", "[soil]") {
   const Mat2 gradient = (Mat2() << 0, -spin, spin, 0).finished();
   const Stress old{-3e4, 1e4, -2e4, 4e4};
   const Mat2 turn = (Mat2() << std::cos(step), -std::sin(step), std::sin(step), std::cos(step)).finished();
-  const Stress now = soil.step(old, gradient, 1, none);
+  const Stress now = soil.step(old, Gradient(gradient), 1, none);
   CHECK((now.in_plane() - turn * old.in_plane() * turn.transpose()).norm() < 1e-9);
   CHECK(now.zz == old.zz);
 }
 
 TEST_CASE("a soil without tension has no stress where the mean would be tensile", "[soil]") {
   const LinearElastic loose = LinearElastic::from_young(youngs_modulus, poissons_ratio, true);
-  const Stress pulled = loose.step({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3, none);
+  const Stress pulled = loose.step(Stress{5e4, -1e4, 2e4, 3e4}, Gradient(), 1e-3, none);
   CHECK(pulled.in_plane().isZero(0));
   CHECK(pulled.zz == 0);
 
-  const Stress pressed = loose.step({-5e4, 1e4, -2e4, 3e4}, Mat2::Zero(), 1e-3, none);
+  const Stress pressed = loose.step(Stress{-5e4, 1e4, -2e4, 3e4}, Gradient(), 1e-3, none);
   CHECK(pressed.xx == -5e4);
   CHECK(pressed.yy == 1e4);
-  CHECK(soil.step({5e4, -1e4, 2e4, 3e4}, Mat2::Zero(), 1e-3, none).mean() == Approx(2e4));
+  CHECK(soil.step(Stress{5e4, -1e4, 2e4, 3e4}, Gradient(), 1e-3, none).mean() == Approx(2e4));
 }
