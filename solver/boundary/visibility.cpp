@@ -141,10 +141,22 @@ bool Visibility::sees_from(const Vec2& point, std::int32_t b, const Particles& p
   return everywhere_ || !hides(exit(point, p.start[b]));
 }
 
+/// Behind a corner of more than a right angle, ghosts of ghosts lie where a single wall has ghosts already.
+bool Visibility::is_image_in_one_wall(const Vec2& start, std::size_t ghost, const Ghosts& ghosts) const {
+  const auto covers = [&](const Wall& wall) {
+    const Vec2 source = wall.mirrored(start);
+    return wall.faces(source, range_) && in_soil(source);
+  };
+  const std::size_t parent = ghosts.parent(ghost) - ghosts.particles();
+  return covers(ghosts.wall(ghost)) || covers(ghosts.wall(parent));
+}
+
 bool Visibility::sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& ghosts,
                             const Particles& p) const {
   if (everywhere_) return true;
-  const Exit way_out = exit(p.start[a], start_of(ghost, ghosts, p));
+  const Vec2 start = start_of(ghost, ghosts, p);
+  if (ghosts.stems_from_ghost(ghost) && is_image_in_one_wall(start, ghost, ghosts)) return false;
+  const Exit way_out = exit(p.start[a], start);
   for (std::size_t g = ghost;; g = ghosts.parent(g) - ghosts.particles()) {
     for (const Edge* edge : way_out.out)
       if (on_line(edge->a, edge->b, ghosts.wall(g), 1e-3 * spacing_)) return true;
@@ -152,11 +164,11 @@ bool Visibility::sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& gho
   }
 }
 
-/// Of the particles at the start, with a margin: what is within twice the range may come nearer later.
+/// Of the particles at the start.
 bool Visibility::anything_is_hidden(std::span<const Wall> walls, const Particles& p) const {
   const auto near_edge = [&](std::size_t a) {
     return std::any_of(edges_.begin(), edges_.end(),
-                       [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < 2 * range_; });
+                       [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < range_; });
   };
   std::vector<std::uint8_t> near(p.size());
 #pragma omp parallel for schedule(static)
@@ -164,7 +176,6 @@ bool Visibility::anything_is_hidden(std::span<const Wall> walls, const Particles
   const auto n = static_cast<std::int32_t>(p.size());
   std::vector<Vec2> points = p.start;
   const Ghosts ghosts(walls, 0, walls.size(), range_, points);
-  const NeighbourList particles = find_neighbours(p.start, p.size(), 2 * range_);
   const NeighbourList all = find_neighbours(points, p.size(), range_);
   Visibility open = *this;
   open.everywhere_ = false;
@@ -172,9 +183,8 @@ bool Visibility::anything_is_hidden(std::span<const Wall> walls, const Particles
 #pragma omp parallel for schedule(dynamic, 256) reduction(|| : hidden)
   for (std::int32_t a = 0; a < n; ++a) {
     if (!near[a]) continue;
-    for (const std::int32_t b : particles.of(a)) hidden = hidden || (near[b] && !open.sees(a, b, p));
     for (const std::int32_t b : all.of(a))
-      hidden = hidden || (b >= n && !open.sees_ghost(a, b - n, ghosts, p));
+      hidden = hidden || !(b < n ? !near[b] || open.sees(a, b, p) : open.sees_ghost(a, b - n, ghosts, p));
   }
   return hidden;
 }

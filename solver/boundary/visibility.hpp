@@ -47,6 +47,7 @@ class Visibility {
   };
   Exit exit(const Vec2& from, const Vec2& to) const;
   bool hides(const Exit& exit) const;
+  bool is_image_in_one_wall(const Vec2& start, std::size_t ghost, const Ghosts& ghosts) const;
   bool in_soil(const Vec2& p) const;
   bool anything_is_hidden(std::span<const Wall> walls, const Particles& particles) const;
 

@@ -16,14 +16,18 @@ Vec2 normal_towards(const Wall& wall, std::span<const Vec2> points, double range
   Wall left = wall, right = wall;
   left.normal = Vec2(-tangent.y(), tangent.x());
   right.normal = -left.normal;
-  const auto facing = [&](const Wall& w) {
-    return std::count_if(points.begin(), points.end(), [&](const Vec2& p) { return w.faces(p, range); });
+  // The soil on the other side of a thin plate lies further away.
+  const auto nearest = [&](const Wall& w) {
+    double least = never;
+    for (const Vec2& p : points)
+      if (w.faces(p, range)) least = std::min(least, w.distance(p));
+    return least;
   };
-  const auto on_left = facing(left), on_right = facing(right);
-  if (on_left == 0 && on_right == 0)
+  const double on_left = nearest(left), on_right = nearest(right);
+  if (on_left == never && on_right == never)
     throw std::runtime_error(fmt::format("boundary from ({}, {}) to ({}, {}) touches no soil particle",
                                          wall.from.x(), wall.from.y(), wall.to.x(), wall.to.y()));
-  return on_left >= on_right ? left.normal : right.normal;
+  return on_left <= on_right ? left.normal : right.normal;
 }
 
 /// An end that another wall meets at an angle is a corner: images in the one wall have images in the other.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "solver/case/shapes.hpp"
@@ -78,10 +80,13 @@ std::string fault_of_pair(const BoundaryCase& a, const BoundaryCase& b, double t
   constexpr double right = 1e-4;  // the sine of an angle that counts as none
   const Point u = unit(a), v = unit(b);
   const double sine = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(u.dot(v)) < right) return "";
-  if (std::abs(sine) > right)
-    return fmt::format("at an angle of {:.4g} degrees: must be a right angle or one line",
-                       std::atan2(std::abs(sine), std::abs(u.dot(v))) * 180 / M_PI);
+  if (std::abs(sine) > right) {
+    constexpr double sharpest = 45;  // degrees: ghosts of ghosts would have ghosts of their own
+    const double angle = std::atan2(std::abs(sine), std::abs(u.dot(v))) * 180 / std::numbers::pi;
+    return angle >= sharpest - 1e-6
+               ? ""
+               : fmt::format("at an angle of {:.4g} degrees: must be {} to 90, or one line", angle, sharpest);
+  }
   const double b0 = u.dot(b.from - a.from), b1 = u.dot(b.to - a.from), length = (a.to - a.from).norm();
   const double common = std::min(length, std::max(b0, b1)) - std::max(0., std::min(b0, b1));
   return common > tolerance ? fmt::format("along {:.4g} m: must be one or the other", common) : "";
