@@ -10,6 +10,7 @@
 #include "app/check_by_fem.hpp"
 #include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/monitor/zigzag.hpp"
 #include "solver/simulation/reference_errors.hpp"
 
 namespace porosph::app {
@@ -66,6 +67,14 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.unbalanced_force_ratio =
       s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
   summary.energy_growth = outcome.energy_growth;
+  if (s.showable()) {
+    const Zigzag zigzag = measure_zigzag(s.model());
+    summary.zigzag = {.rms = zigzag.rms,
+                      .quantile = zigzag.quantile,
+                      .largest = zigzag.largest,
+                      .x = zigzag.where.x(),
+                      .y = zigzag.where.y()};
+  }
   for (const Probe& probe : s.probes()) {
     Summary::Probe& p = summary.probes[probe.name()];
     p.x = probe.start().x(), p.y = probe.start().y();
@@ -90,6 +99,10 @@ std::string tell(const Summary& s) {
   if (!std::isfinite(s.energy_growth)) return text;  // broken down: there is no state to tell of
   if (std::isfinite(s.unbalanced_force_ratio))
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
+  if (s.zigzag && s.zigzag->rms > 0)
+    text += fmt::format(
+        "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
+        s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
   for (const auto& [name, probe] : s.probes)
     text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
                         probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);

@@ -35,8 +35,8 @@ bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); 
 }  // namespace
 
 std::string_view cause_name(Cause cause) {
-  static constexpr std::array<std::string_view, 5> names = {"not finite", "too fast", "inverted",
-                                                            "energy gain", "separated"};
+  static constexpr std::array<std::string_view, 6> names = {"not finite",  "too fast",  "inverted",
+                                                            "energy gain", "separated", "beyond a wall"};
   return names[static_cast<std::size_t>(cause)];
 }
 
@@ -109,6 +109,25 @@ double closest_distance(std::span<const Vec2> positions, double radius) {
   for (std::size_t a = 0; a < positions.size(); ++a)
     for (std::int32_t b : near.of(a)) closest = std::min(closest, (positions[a] - positions[b]).norm());
   return closest;
+}
+
+std::optional<Breakdown> find_beyond_wall(const Model& model, double time) {
+  const Particles& p = model.particles;
+  for (const Wall& wall : model.walls) {
+    const Vec2 along = (wall.to - wall.from).normalized();
+    const double length = (wall.to - wall.from).norm();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double before = (p.start[i] - wall.from).dot(along), now = (p.position[i] - wall.from).dot(along);
+      const bool beside = before < 0 || before > length || now < 0 || now > length;
+      if (beside || wall.distance(p.start[i]) <= 0 || wall.distance(p.position[i]) > -0.25 * model.spacing)
+        continue;
+      return Breakdown{Cause::beyond_wall, time,
+                       fmt::format("at {:.6g} s {} is at {}, behind the boundary from {} to {}; {}", time,
+                                   name_of(model, i), place(model, p.position[i]), place(model, wall.from),
+                                   place(model, wall.to), model.usual_cause)};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Breakdown> find_crossing(const Model& model, double allowed, double time) {

@@ -18,6 +18,7 @@ enum class Cause {
   inverted,     ///< soil turned inside out: a volume that is not positive, or particles that met
   energy_gain,  ///< motion and strain hold energy that came from nowhere
   separated,    ///< particles have left the soil body
+  beyond_wall,  ///< a particle is behind a wall that held it
 };
 
 /// One or two words for tables ("not finite").
@@ -43,6 +44,9 @@ Bodies find_bodies(std::span<const Vec2> positions, double support);
 
 /// Which particles have left the bodies that were there at first; empty while none has.
 std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies_at_start, double time);
+
+/// A particle that began in front of a wall and is behind it, by a quarter of the spacing.
+std::optional<Breakdown> find_beyond_wall(const Model& model, double time);
 
 /// Distance of the two particles that are nearest to each other, at most `radius` [m].
 double closest_distance(std::span<const Vec2> positions, double radius);

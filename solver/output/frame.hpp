@@ -56,6 +56,13 @@ struct Summary {
   double unbalanced_force_ratio = 0;
   double energy_growth =
       0;  ///< total energy gained since the start over what moves and strains at the end [-]
+  /// Displacements that alternate from particle to particle: see monitor/zigzag.hpp.
+  struct Zigzag {
+    double rms = 0, quantile = 0;  ///< over the difference of neighbours [-]
+    double largest = 0;            ///< [m]
+    double x = 0, y = 0;           ///< where that is [m]
+  };
+  std::optional<Zigzag> zigzag;
   struct Probe {
     double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI
@@ -63,7 +70,7 @@ struct Summary {
   std::map<std::string, Probe> probes;
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
-  std::optional<FemCheck> finite_elements;  ///< what the run is held against by itself
+  std::optional<FemCheck> finite_elements;     ///< what the run is held against by itself
   std::vector<std::string> warnings;           ///< that the run began with
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
 };

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/monitor/zigzag.hpp"
+
 namespace porosph {
 namespace {
 
@@ -22,15 +24,27 @@ class Equilibrium {
     if (!s.scene().water.level_over_time.empty()) water_rests_ = s.scene().water.level_over_time.back().x();
   }
 
-  /// Keeps the last time out of balance in `unbalanced_at` [s].
-  bool reached(Simulation& s, double& unbalanced_at) const {
+  /// Keeps the last time out of balance, and the zigzag of displacements, in `progress`.
+  bool reached(Simulation& s, RunProgress& progress) const {
     if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
-    if (s.unbalanced_force_ratio() >= limit_) unbalanced_at = s.time();
+    if (s.unbalanced_force_ratio() >= limit_) progress.unbalanced_at = s.time();
     const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
-    return s.time() - std::max(unbalanced_at, water_rests_) >= (c > 0 ? std::min(needed_, 4 / c) : needed_);
+    const double needed = c > 0 ? std::min(needed_, 4 / c) : needed_;
+    return s.time() - std::max(progress.unbalanced_at, water_rests_) >= needed &&
+           !zigzag_grows(s, progress, needed);
   }
 
  private:
+  /// Displacements that alternate grow without forces that show: where there are any, they are looked at
+  /// again after the same while.
+  static bool zigzag_grows(const Simulation& s, RunProgress& progress, double needed) {
+    constexpr double none = 0.02, steady = 1.02;
+    if (progress.zigzag >= 0 && s.time() - progress.zigzag_at < needed) return true;
+    const double before = progress.zigzag, now = measure_zigzag(s.model()).rms;
+    progress.zigzag = now, progress.zigzag_at = s.time();
+    return now > none && (before < 0 || now > steady * before);
+  }
+
   double limit_, needed_ = 0, water_rests_ = 0;
 };
 
@@ -111,6 +125,8 @@ void RunProgress::visit(StateArchive& state) {
   state.value("energy_at_start", energy_at_start);
   state.value("most_at_work", most_at_work);
   state.value("unbalanced_at", unbalanced_at);
+  state.value("zigzag", zigzag);
+  state.value("zigzag_at", zigzag_at);
   state.value("stepping_seconds", stepping_seconds);
 }
 
@@ -146,7 +162,11 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     const auto before = Clock::now();
     s.advance();
     guard.look(s, progress);
-    const bool settled = !s.instability() && equilibrium.reached(s, progress.unbalanced_at);
+    bool settled = !s.instability() && equilibrium.reached(s, progress);
+    if (settled) {
+      s.look_for_breakdown();
+      settled = !s.instability();
+    }
     progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
     if (s.instability()) {
       outcome.status = RunStatus::unstable;

@@ -29,6 +29,8 @@ struct RunProgress {
   double energy_at_start = 0;               ///< [J/m]
   double most_at_work = 0;                  ///< largest kinetic and elastic energy seen [J/m]
   double unbalanced_at = 0;                 ///< last time at which forces were seen out of balance [s]
+  double zigzag = -1;                       ///< when last measured at rest [-]; negative: not yet
+  double zigzag_at = 0;                     ///< [s]
   double stepping_seconds = 0;              ///< wall time without what the watch did [s]
 
   bool has_begun() const { return framed >= 0 || recorded >= 0; }

@@ -192,6 +192,7 @@ void Simulation::name_breakdown(double time) {
 void Simulation::look_for_breakdown() {
   constexpr double met = 0.25;  // of the smallest distance at the start
   if (!instability_) instability_ = find_crossing(model_, met * closest_at_start_, time());
+  if (!instability_) instability_ = find_beyond_wall(model_, time());
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, bodies_at_start_, time());
 }

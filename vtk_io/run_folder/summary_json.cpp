@@ -102,6 +102,12 @@ Json to_json(const Summary& summary) {
   json["kernel_correction"] = summary.kernel_correction;
   put(json, "unbalanced_force_ratio", summary.unbalanced_force_ratio);
   put(json, "energy_growth", summary.energy_growth);
+  if (summary.zigzag) {
+    Json& zigzag = json["zigzag"];
+    put(zigzag, "rms", summary.zigzag->rms), put(zigzag, "quantile_99", summary.zigzag->quantile);
+    put(zigzag, "largest", summary.zigzag->largest);
+    put(zigzag, "x", summary.zigzag->x), put(zigzag, "y", summary.zigzag->y);
+  }
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -259,6 +265,11 @@ Summary summary_from(const Object& json) {
       const auto norms = errors.object(field);
       summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
     }
+  }
+  if (json.has("zigzag")) {
+    const auto zigzag = json.object("zigzag");
+    summary.zigzag = {zigzag.number("rms"), zigzag.number("quantile_99"), zigzag.number("largest"),
+                      zigzag.number("x"), zigzag.number("y")};
   }
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   if (json.has("warnings")) summary.warnings = json.texts("warnings");
