@@ -17,8 +17,8 @@
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/model/soil_volume.hpp"
-#include "solver/simulation/run.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/run.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::app {
 namespace {
@@ -82,8 +82,8 @@ void print_model(const Simulation& s) {
     const SoilCase& soil = s.scene().soils[i];
     fmt::print(
         "  {:16}{} of '{}' carry {:.5g} of its {:.5g} m2, K = {:.4g} MPa, G = {:.4g} MPa{}\n", "",
-        volumes[i].particles, soil.name, volumes[i].carried, volumes[i].drawn, m.soils[i].bulk_modulus() / 1e6,
-        m.soils[i].shear_modulus() / 1e6,
+        volumes[i].particles, soil.name, volumes[i].carried, volumes[i].drawn,
+        m.soils[i].bulk_modulus() / 1e6, m.soils[i].shear_modulus() / 1e6,
         soil.no_tension ? "; no tension and no cohesion, shear strength unlimited in compression" : "");
   }
   print_settings(s.scene());

@@ -9,9 +9,9 @@
 
 #include "app/memory.hpp"
 #include "solver/case/fem_obstacle.hpp"
-#include "solver/fem/compare.hpp"
-#include "solver/fem/demand.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/compare.hpp"
+#include "solver/reference/fem/demand.hpp"
+#include "solver/reference/fem/solve.hpp"
 #ifdef POROSPH_HAS_VTK
 #include "vtk_io/fem_mesh.hpp"
 #endif

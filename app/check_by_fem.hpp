@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "solver/output/frame.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::app {
 

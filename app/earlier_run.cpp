@@ -4,7 +4,7 @@
 
 #include "app/command.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::app {
 namespace {

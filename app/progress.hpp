@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::app {
 

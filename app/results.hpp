@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/written_files.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "vtk_io/run_folder/checkpoint.hpp"
 #include "vtk_io/run_folder/history_csv.hpp"
 #ifdef POROSPH_HAS_VTK

@@ -10,8 +10,8 @@
 #include "app/check_by_fem.hpp"
 #include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/monitor/zigzag.hpp"
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/run/monitor/zigzag.hpp"
+#include "solver/run/reference_errors.hpp"
 
 namespace porosph::app {
 namespace {

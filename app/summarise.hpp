@@ -1,7 +1,7 @@
 // The story of a run, for summary.json and for the last lines on the terminal.
 #pragma once
 
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace porosph::app {
 

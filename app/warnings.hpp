@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/output/frame.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::app {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/state.hpp"
+#include "solver/particles/state.hpp"
 
 namespace porosph::app {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 
 namespace porosph {
 

@@ -7,8 +7,8 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/fem/solve.hpp"
-#include "solver/model/water.hpp"
+#include "solver/reference/fem/solve.hpp"
+#include "solver/water/still_water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 namespace porosph {

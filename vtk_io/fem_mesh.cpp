@@ -16,7 +16,7 @@
 #include <stdexcept>
 
 #include "solver/case/shapes.hpp"
-#include "solver/fem/mesh_points.hpp"
+#include "solver/reference/fem/mesh_points.hpp"
 
 namespace porosph {
 namespace {

@@ -1,7 +1,7 @@
 // Triangles for the finite-element reference of any case, by VTK's constrained Delaunay triangulation.
 #pragma once
 
-#include "solver/fem/mesh.hpp"
+#include "solver/reference/fem/mesh.hpp"
 
 namespace porosph {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "solver/fem/solution.hpp"
+#include "solver/reference/fem/solution.hpp"
 
 namespace porosph {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/bench/clock.hpp"
-#include "solver/motion/dynamics.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
+#include "solver/sph/dynamics.hpp"
 
 namespace porosph::bench {
 

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "app/bench/reference_stress.hpp"
-#include "solver/exact/finite_strain_column.hpp"
-#include "solver/fem/solve.hpp"
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/reference/exact/finite_strain_column.hpp"
+#include "solver/reference/fem/solve.hpp"
+#include "solver/run/reference_errors.hpp"
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/bench/work_precision.hpp"
-#include "solver/fem/solution.hpp"
+#include "solver/reference/fem/solution.hpp"
 
 namespace porosph::bench {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "solver/motion/kernels/vector_units.hpp"
+#include "solver/sph/kernels/vector_units.hpp"
 
 namespace porosph::bench {
 namespace {

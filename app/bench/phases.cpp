@@ -10,9 +10,9 @@
 #include "app/bench/csv.hpp"
 #include "app/bench/timed_dynamics.hpp"
 #include "render/chart.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 #include "vtk_io/particle_series.hpp"
 
 namespace porosph::bench {

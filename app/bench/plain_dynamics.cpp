@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/correction/kernel_correction.hpp"
+#include "solver/sph/correction/kernel_correction.hpp"
 
 namespace porosph::bench {
 namespace {

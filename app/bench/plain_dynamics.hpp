@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "solver/kernel/cubic_spline.hpp"
-#include "solver/motion/dynamics.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
-#include "solver/stabilisation/artificial_viscosity.hpp"
+#include "solver/sph/dynamics.hpp"
+#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
+#include "solver/sph/stabilisation/artificial_viscosity.hpp"
 
 namespace porosph::bench {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "solver/exact/finite_strain_column.hpp"
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/reference/exact/finite_strain_column.hpp"
+#include "solver/run/reference_errors.hpp"
 
 namespace porosph::bench {
 

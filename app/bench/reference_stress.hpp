@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "solver/fem/solution.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/reference/fem/solution.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph::bench {
 

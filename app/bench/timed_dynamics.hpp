@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/bench/clock.hpp"
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 
 namespace porosph::bench {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace porosph::bench {
 namespace {

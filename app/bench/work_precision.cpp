@@ -10,7 +10,7 @@
 #include "app/bench/fem_work.hpp"
 #include "app/bench/strategies.hpp"
 #include "app/bench/timed_run.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/solve.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 namespace porosph::bench {

@@ -8,7 +8,7 @@
 #include "softening_clay.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "vtk_io/particle_series.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "render/run/shown_field.hpp"
 #include "solver/case/case.hpp"
-#include "solver/fem/p4_triangle.hpp"
-#include "solver/fem/triangle_locator.hpp"
+#include "solver/reference/fem/p4_triangle.hpp"
+#include "solver/reference/fem/triangle_locator.hpp"
 
 namespace porosph {
 

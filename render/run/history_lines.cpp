@@ -6,9 +6,9 @@
 #include <array>
 
 #include "render/run/shown_field.hpp"
-#include "solver/exact/dynamic_column.hpp"
-#include "solver/exact/finite_strain_column.hpp"
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/reference/exact/dynamic_column.hpp"
+#include "solver/reference/exact/finite_strain_column.hpp"
+#include "solver/run/reference_errors.hpp"
 
 namespace porosph {
 

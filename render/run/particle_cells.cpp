@@ -6,7 +6,7 @@
 #include "solver/geometry/clip.hpp"
 #include "solver/geometry/grid.hpp"
 #include "solver/geometry/moments.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {

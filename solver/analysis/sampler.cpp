@@ -3,8 +3,8 @@
 #include <limits>
 #include <numeric>
 
-#include "solver/neighbours/neighbour_list.hpp"
-#include "solver/simulation/probe.hpp"
+#include "solver/run/probe.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/tensor.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 

@@ -8,8 +8,8 @@
 
 #include "solver/case/outline_edges.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/kernel/linear_weights.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/kernel/linear_weights.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {

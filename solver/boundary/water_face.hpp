@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/model/water.hpp"
 #include "solver/particles/particles.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 

@@ -44,10 +44,10 @@ struct SoilCase {
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
   bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
                             ///< unlimited where the mean is compressive
-  Point velocity = Point::Zero();      ///< initial velocity [m/s]
-  double angular_velocity = 0;         ///< initial, counter-clockwise about the polygon's middle [rad/s]
-  double bending_velocity = 0;  ///< initial, upwards at the tip of a plate clamped at its left end, in the
-                                ///< shape of the first mode [m/s]
+  Point velocity = Point::Zero();  ///< initial velocity [m/s]
+  double angular_velocity = 0;     ///< initial, counter-clockwise about the polygon's middle [rad/s]
+  double bending_velocity = 0;     ///< initial, upwards at the tip of a plate clamped at its left end, in the
+                                   ///< shape of the first mode [m/s]
 };
 
 /// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.

@@ -405,8 +405,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw CaseError(
-        fmt::format("{}: is not a readable file{}", name, error ? ": " + error.message() : ""));
+    throw CaseError(fmt::format("{}: is not a readable file{}", name, error ? ": " + error.message() : ""));
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (!error && size > largest_file)
     throw CaseError(fmt::format("{}: has {} bytes; at most {} are read", name, size, largest_file));

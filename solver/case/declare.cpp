@@ -5,7 +5,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/outline_edges.hpp"
-#include "solver/model/water.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 namespace {
@@ -110,9 +110,9 @@ void declare(Fields& f, ParticlesCase& c) {
   f.number(Key("disorder", "", "Largest random displacement over spacing.")
                .only_if(disordered, "arrangement = \"disordered\""),
            c.disorder, between(0, 0.5));
-  f.integer(
-      Key("seed", "", "Seed of the random displacements.").only_if(disordered, "arrangement = \"disordered\""),
-      c.seed, between(0, 999999));
+  f.integer(Key("seed", "", "Seed of the random displacements.")
+                .only_if(disordered, "arrangement = \"disordered\""),
+            c.seed, between(0, 999999));
 }
 
 void declare(Fields& f, SoilCase& c) {
@@ -127,16 +127,18 @@ void declare(Fields& f, SoilCase& c) {
   f.number(Key("unit_weight_saturated", "N/m3", "Unit weight of the soil below water.").required(),
            c.unit_weight_saturated, above(0, heaviest));
   f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
-  f.number(Key("unit_weight_unsaturated", "N/m3", "Unit weight of the soil above water; not more than saturated.")
-               .otherwise("as saturated"),
-           c.unit_weight_unsaturated, above(0, heaviest));
+  f.number(
+      Key("unit_weight_unsaturated", "N/m3", "Unit weight of the soil above water; not more than saturated.")
+          .otherwise("as saturated"),
+      c.unit_weight_unsaturated, above(0, heaviest));
   if (c.unit_weight_unsaturated > c.unit_weight_saturated)
     f.reject("unit_weight_unsaturated",
              fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
-  f.flag(Key("no_tension", "",
-             "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
-             "compressive the soil stays elastic and its shear strength is unlimited: nothing slips."),
-         c.no_tension);
+  f.flag(
+      Key("no_tension", "",
+          "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
+          "compressive the soil stays elastic and its shear strength is unlimited: nothing slips."),
+      c.no_tension);
   f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
                "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
@@ -293,24 +295,27 @@ void declare(Fields& f, OutputCase& c) {
     for (const Field& field : field_table()) all.emplace_back(field.name);
     return all;
   }();
-  f.number(Key("interval", "s", "Time between frames; 0: first and last only."), c.interval, between(0, longest));
+  f.number(Key("interval", "s", "Time between frames; 0: first and last only."), c.interval,
+           between(0, longest));
   f.numbers(Key("times", "s", "Times of further frames, each written at the nearest step."), c.times,
             between(0, longest));
-  f.number(Key("history_interval", "s", "Time between rows of the history; 0: every step."), c.history_interval,
-           between(0, longest));
+  f.number(Key("history_interval", "s", "Time between rows of the history; 0: every step."),
+           c.history_interval, between(0, longest));
   f.words(Key("fields", "", "Particle data of the frames; only these are computed for output."), c.fields,
           known);
   f.flag(Key("boundary", "", "Whether the mirror particles behind the walls are written, as a second block."),
          c.boundary);
   f.choice(Key("format", "", "Format of the frames: PolyData (`vtp`) or UnstructuredGrid (`vtu`)."), c.format,
            frame_formats);
-  f.choice(Key("compression", "", "Compression of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
+  f.choice(Key("compression", "",
+               "Compression of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
            c.compression, compressions);
 }
 
 void declare(Fields& f, ProbeCase& c) {
   f.name(Key("name", "", "Name of the probe, unlike any other.").required(), c.name);
-  f.point(Key("position", "m", "Position at the start; the probe then moves with the soil.").required(), c.position);
+  f.point(Key("position", "m", "Position at the start; the probe then moves with the soil.").required(),
+          c.position);
 }
 
 }  // namespace porosph

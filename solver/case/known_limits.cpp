@@ -29,7 +29,8 @@ void check_time_step(const Case& c, std::vector<std::string>& out) {
   if (c.time.courant > limit)
     out.push_back(fmt::format("time.courant = {:g}: runs break down above {:g}", c.time.courant, limit));
   const double control = c.formulation.zero_energy_control;
-  if (consistent && c.time.courant <= limit && control * c.time.courant > largest_control_times_courant * (1 + 1e-9))
+  if (consistent && c.time.courant <= limit &&
+      control * c.time.courant > largest_control_times_courant * (1 + 1e-9))
     out.push_back(
         fmt::format("formulation.zero_energy_control = {:g} with time.courant = {:g}: runs break down "
                     "where their product is above {:g}",

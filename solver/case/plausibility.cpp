@@ -8,11 +8,11 @@
 
 #include "solver/case/known_limits.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/soil/elasticity.hpp"
 #include "solver/geometry/clip.hpp"
 #include "solver/geometry/moments.hpp"
 #include "solver/geometry/region.hpp"
-#include "solver/model/water.hpp"
+#include "solver/soil/elasticity.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 namespace {

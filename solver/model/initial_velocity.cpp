@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/exact/cantilever.hpp"
+#include "solver/reference/exact/cantilever.hpp"
 
 namespace porosph {
 namespace {

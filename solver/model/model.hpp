@@ -8,9 +8,9 @@
 #include "solver/boundary/wall.hpp"
 #include "solver/boundary/water_face.hpp"
 #include "solver/case/case.hpp"
-#include "solver/model/water.hpp"
 #include "solver/particles/particles.hpp"
 #include "solver/soil/soil.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 

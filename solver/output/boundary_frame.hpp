@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/output/frame.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph {
 

@@ -9,7 +9,7 @@
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
 #include "solver/particles/field_table.hpp"
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/run/reference_errors.hpp"
 
 namespace porosph {
 namespace {

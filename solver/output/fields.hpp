@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/output/frame.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph {
 

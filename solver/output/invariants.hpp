@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "solver/tensor.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "solver/kernel/cubic_spline.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/particles/field.hpp"
-#include "solver/tensor.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 

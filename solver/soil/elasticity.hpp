@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/soil/rotation.hpp"
-#include "solver/tensor.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 

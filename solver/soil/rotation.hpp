@@ -1,7 +1,7 @@
 // The rotation of a step (Hughes and Winget 1980), exact for a rigid rotation.
 #pragma once
 
-#include "solver/tensor.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 

@@ -31,5 +31,4 @@ class Soil {
   std::vector<std::size_t> history_;
 };
 
-
 }  // namespace porosph

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "solver/simulation/reference_errors.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/reference_errors.hpp"
+#include "solver/run/run.hpp"
 
 namespace porosph {
 namespace {

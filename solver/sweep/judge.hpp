@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 #include "solver/sweep/sweep.hpp"
 #include "solver/sweep/verdict.hpp"
 

@@ -35,13 +35,10 @@ void draw_foundation(const Workplace& place) {
   std::ostringstream time;
   time.precision(17);
   time << last_time(place.folder() / "conventional/particles.pvd");
-  REQUIRE(
-      place
-          .porosph(
-              run +
-              "--set formulation.motion=proposed --out proposed --set 'output.times=[" +
-              time.str() + "]'")
-          .status == 0);
+  REQUIRE(place
+              .porosph(run + "--set formulation.motion=proposed --out proposed --set 'output.times=[" +
+                       time.str() + "]'")
+              .status == 0);
   REQUIRE(place
               .porosph("compare conventional proposed --time common --field TotalStress:YY --out foundation "
                        "--label 'conventional, no tension' --label 'proposed, no tension'")

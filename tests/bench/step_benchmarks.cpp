@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "solver/case/case_file.hpp"
-#include "solver/kernel/cubic_spline.hpp"
-#include "solver/motion/dynamics.hpp"
-#include "solver/neighbours/neighbour_list.hpp"
 #include "solver/soil/laws.hpp"
+#include "solver/sph/dynamics.hpp"
+#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/law_from_outside.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/step_by_hand.hpp"

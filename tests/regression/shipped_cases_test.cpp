@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "solver/case/case_file.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;

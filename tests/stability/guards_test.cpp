@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "solver/case/known_limits.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/stability/scenes.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solver/case/case_file.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace porosph {
 

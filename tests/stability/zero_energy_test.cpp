@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;

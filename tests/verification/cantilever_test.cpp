@@ -1,5 +1,5 @@
 // Bending: the oscillating plate of Gray, Monaghan and Swift (2001).
-#include "solver/exact/cantilever.hpp"
+#include "solver/reference/exact/cantilever.hpp"
 
 #include <fmt/format.h>
 

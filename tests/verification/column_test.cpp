@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "solver/simulation/reference_errors.hpp"
+#include "solver/run/reference_errors.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

@@ -1,7 +1,7 @@
 // Soils of different stiffness on each other: stress by the weight above, displacements without a zigzag.
 #include <catch2/catch.hpp>
 
-#include "solver/monitor/zigzag.hpp"
+#include "solver/run/monitor/zigzag.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/verification/verification.hpp"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 #include "tests/step_by_hand.hpp"
 #include "tests/verification/verification.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/monitor/instability.hpp"
+#include "solver/run/monitor/instability.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/motion/dynamics.hpp"
+#include "solver/sph/dynamics.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/exact/dynamic_column.hpp"
-#include "solver/monitor/energy.hpp"
+#include "solver/reference/exact/dynamic_column.hpp"
+#include "solver/run/monitor/energy.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

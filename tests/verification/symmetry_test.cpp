@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/neighbours/neighbour_list.hpp"
+#include "solver/sph/neighbours/neighbour_list.hpp"
 #include "tests/verification/verification.hpp"
 
 using namespace porosph;

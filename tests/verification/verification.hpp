@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/case/case_file.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace porosph::verification {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/state.hpp"
+#include "solver/particles/state.hpp"
 
 namespace porosph {
 

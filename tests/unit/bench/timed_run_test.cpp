@@ -7,8 +7,8 @@
 #include "app/bench/bench.hpp"
 #include "app/bench/strategies.hpp"
 #include "app/bench/timed_dynamics.hpp"
-#include "solver/simulation/reference_errors.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/reference_errors.hpp"
+#include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;

@@ -6,7 +6,6 @@
 
 #include "render/report/html.hpp"
 #include "render/report/settings.hpp"
-#include "vtk_io/run_folder/threshold.hpp"
 #include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/material_points.hpp"
@@ -14,6 +13,7 @@
 #include "render/run/run_panel.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
+#include "vtk_io/run_folder/threshold.hpp"
 
 using namespace porosph;
 using Catch::Matchers::Contains;
@@ -236,8 +236,7 @@ TEST_CASE("a subtitle does not repeat the title") {
   run.scene->loading.damping = 0;
   run.scene->loading.adaptive_damping = false;
   CHECK(panel_subtitle(run, 0, "x") == "t = 0 s, proposed, without kernel correction, undamped");
-  CHECK(panel_subtitle(run, 0.5, "proposed, undamped") ==
-        "t = 0.5 s, unstable, without kernel correction");
+  CHECK(panel_subtitle(run, 0.5, "proposed, undamped") == "t = 0.5 s, unstable, without kernel correction");
 }
 
 TEST_CASE("soils are categories by their names") {

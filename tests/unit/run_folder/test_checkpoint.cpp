@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "solver/case/case_file.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/unit/run_folder/temporary_folder.hpp"
 #include "vtk_io/run_folder/checkpoint.hpp"

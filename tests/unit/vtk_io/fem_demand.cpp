@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "fem_scenes.hpp"
-#include "solver/fem/constraints.hpp"
-#include "solver/fem/demand.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/constraints.hpp"
+#include "solver/reference/fem/demand.hpp"
+#include "solver/reference/fem/solve.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 using namespace porosph;

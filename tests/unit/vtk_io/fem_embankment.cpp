@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "fem_scenes.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/solve.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 using namespace porosph;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fem_scenes.hpp"
-#include "solver/fem/mesh_size.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/mesh_size.hpp"
+#include "solver/reference/fem/solve.hpp"
 
 using namespace porosph;
 using Catch::Matchers::Contains;

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "fem_scenes.hpp"
-#include "solver/fem/solve.hpp"
+#include "solver/reference/fem/solve.hpp"
 #include "tests/unit/run_folder/temporary_folder.hpp"
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"

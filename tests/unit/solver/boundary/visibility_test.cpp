@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/motion/dynamics.hpp"
-#include "solver/simulation/simulation.hpp"
+#include "solver/run/simulation.hpp"
+#include "solver/sph/dynamics.hpp"
 #include "tests/box_of_soil.hpp"
 #include "tests/step_by_hand.hpp"
 

@@ -29,7 +29,8 @@ TEST_CASE("values that are wrong by themselves") {
       {"[time]\nend = 1\n", "", "box.toml:1:1: key 'time.end': is missing: When the run ends."},
       {"end = 1", "end = 1\ncorant = 1",
        "box.toml:20:1: key 'time.corant': is not known; did you mean 'courant'?"},
-      {"end = 1", "end = 1\nfoo = 1", "box.toml:20:1: key 'time.foo': is not known; known are end, courant, step"},
+      {"end = 1", "end = 1\nfoo = 1",
+       "box.toml:20:1: key 'time.foo': is not known; known are end, courant, step"},
       {"[[soil]]", "[soil]",
        "box.toml:6:1: key 'soil': must be a list of tables [[soil]], at most 1000, at least one"},
       {"[particles]\nspacing = 0.5", "particles = 3",
@@ -58,7 +59,8 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:21:11: key 'output.fields[0]' = \"Velocty\": must be one of Displacement, Velocity, "
        "EffectiveStress, "
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
-       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, PlasticStrain; did you mean "
+       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, PlasticStrain; "
+       "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",
        "box.toml:21:19: key 'output.fields[1]' = \"Mass\": is given twice"},

@@ -3,7 +3,7 @@
 
 #include "solver/case/local_origin.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;

@@ -47,7 +47,8 @@ TEST_CASE("errors name the override that brings them") {
         "override 'water.lvl=3': key 'water.lvl' = 3: is not known; did you mean 'level'?");
   CHECK(
       errors("probe=[{name='C', pos=1}]") ==
-      "override 'probe=[{name='C', pos=1}]': key 'probe[0].position': is missing: Position at the start; the probe "
+      "override 'probe=[{name='C', pos=1}]': key 'probe[0].position': is missing: Position at the start; the "
+      "probe "
       "then moves "
       "with the soil.\n"
       "override 'probe=[{name='C', pos=1}]': key 'probe[0].pos' = 1: is not known; known are name, position");

@@ -9,7 +9,7 @@
 #include "solver/output/boundary_frame.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
-#include "solver/simulation/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;

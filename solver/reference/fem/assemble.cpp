@@ -1,0 +1,161 @@
+#include "solver/reference/fem/assemble.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "solver/reference/fem/elasticity.hpp"
+
+namespace porosph {
+namespace {
+
+using p4::node_count;
+using Corners = std::array<Point, 3>;
+using Pairs = Eigen::Matrix<double, node_count, node_count>;
+using Vectors = Eigen::Matrix<double, 2, node_count>;  ///< one vector per node
+
+/// Mean over the triangle of d n_a/d l_i * d n_b/d l_j: with straight sides the same for all triangles.
+const std::array<std::array<Pairs, 2>, 2>& mean_gradient_products() {
+  static const auto means = [] {
+    std::array<std::array<Pairs, 2>, 2> m;
+    for (auto& row : m) row.fill(Pairs::Zero());
+    for (const auto& q : p4::quadrature()) {
+      const p4::Gradients g = p4::gradients(q.at);
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) m[i][j] += q.weight * g.row(i).transpose() * g.row(j);
+    }
+    return m;
+  }();
+  return means;
+}
+
+/// blocks[k][l](a, b): force along k at node a for a unit displacement along l at node b.
+std::array<std::array<Pairs, 2>, 2> element_stiffness(const Lame& material, const Corners& c) {
+  const double area = twice_area(c[0], c[1], c[2]) / 2;
+  const Eigen::Matrix2d map = gradient_map(c[0], c[1], c[2]);
+  const auto& reference = mean_gradient_products();
+  std::array<std::array<Pairs, 2>, 2> products;
+  for (int k = 0; k < 2; ++k)
+    for (int l = 0; l < 2; ++l) {
+      products[k][l].setZero();
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) products[k][l] += area * map(k, i) * map(l, j) * reference[i][j];
+    }
+  const Pairs laplace = products[0][0] + products[1][1];
+  std::array<std::array<Pairs, 2>, 2> blocks;
+  for (int k = 0; k < 2; ++k)
+    for (int l = 0; l < 2; ++l) {
+      blocks[k][l] = material.lambda * products[k][l] + material.mu * products[l][k];
+      if (k == l) blocks[k][l] += material.mu * laplace;
+    }
+  return blocks;
+}
+
+/// int rho g . v - int p_w div v
+Vectors volume_load(double unit_weight, const TriangleWater& water, const Corners& c) {
+  const double area = twice_area(c[0], c[1], c[2]) / 2;
+  const Eigen::Matrix2d map = gradient_map(c[0], c[1], c[2]);
+  Vectors load = Vectors::Zero();
+  for (const auto& q : p4::quadrature()) {
+    const double y = q.at[0] * c[0].y() + q.at[1] * c[1].y() + q.at[2] * c[2].y();
+    load.row(1) -= area * q.weight * unit_weight * p4::values(q.at).transpose();
+    load -= area * q.weight * water.pore_pressure(y) * map * p4::gradients(q.at);
+  }
+  return load;
+}
+
+/// oint p_w n . v over one edge, in `pieces` where p_w has a kink in it; Gauss-Legendre with three points is
+/// exact for degree 5.
+template <class Water>
+Vectors outline_load(const Water& water, const Corners& c, int edge, int pieces = 1) {
+  const Point &from = c[edge], &to = c[(edge + 1) % 3];
+  const Point normal_times_length(to.y() - from.y(), from.x() - to.x());
+  Vectors load = Vectors::Zero();
+  for (int piece = 0; piece < pieces; ++piece)
+    for (const double s : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}) {
+      const double weight = (s == 0 ? 4.0 / 9 : 5.0 / 18) / pieces, part = (piece + (1 + s) / 2) / pieces;
+      p4::Barycentric at = p4::Barycentric::Zero();
+      at[edge] = 1 - part;
+      at[(edge + 1) % 3] = part;
+      const double pressure = water.pore_pressure(from.y() + part * (to.y() - from.y()));
+      load += weight * pressure * normal_times_length * p4::values(at).transpose();
+    }
+  return load;
+}
+
+/// Of the water that stands beside the soil, where a stretch ends there, or else of that in the triangle.
+Vectors outline_load(const Case& scene, const TriangleWater& water, const Corners& c, int edge) {
+  constexpr int pieces = 16;  // the level may cross the edge
+  const WaterBeside beside = water_beside(scene.water, c[edge], c[(edge + 1) % 3], (c[0] + c[1] + c[2]) / 3,
+                                          1e-3 * scene.particles.spacing);
+  return beside.stretch != nullptr ? outline_load(beside, c, edge, pieces) : outline_load(water, c, edge);
+}
+
+Corners corners(const Mesh& mesh, int triangle) {
+  const auto& v = mesh.triangles[triangle];
+  return {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+}
+
+double unit_weight(const Case& scene, const SoilCase& soil, const TriangleWater& water) {
+  if (!scene.loading.gravity_applied) return 0;
+  return water.saturated ? soil.unit_weight_saturated : soil.unit_weight_unsaturated;
+}
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void add_stiffness(const std::array<std::array<Pairs, 2>, 2>& blocks,
+                   const std::array<int, node_count>& nodes, const Freedoms& freedoms, Triplets& lower) {
+  for (int a = 0; a < node_count; ++a)
+    for (int b = 0; b < node_count; ++b) {
+      const NodeFreedom &at = freedoms.nodes[nodes[a]], &of = freedoms.nodes[nodes[b]];
+      Eigen::Matrix2d block;
+      block << blocks[0][0](a, b), blocks[0][1](a, b), blocks[1][0](a, b), blocks[1][1](a, b);
+      const Eigen::Matrix2d turned = at.directions.transpose() * block * of.directions;
+      for (int k = 0; k < at.count; ++k)
+        for (int l = 0; l < of.count; ++l) {
+          const int row = at.first_unknown + k, column = of.first_unknown + l;
+          if (row >= column) lower.emplace_back(row, column, turned(k, l));
+        }
+    }
+}
+
+void add_load(const Vectors& element, const std::array<int, node_count>& nodes, const Freedoms& freedoms,
+              Eigen::VectorXd& load) {
+  for (int a = 0; a < node_count; ++a) {
+    const NodeFreedom& node = freedoms.nodes[nodes[a]];
+    load.segment(node.first_unknown, node.count) +=
+        node.directions.leftCols(node.count).transpose() * element.col(a);
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix2d gradient_map(const Point& a, const Point& b, const Point& c) {
+  Eigen::Matrix2d sides;
+  sides.row(0) = (b - a).transpose();
+  sides.row(1) = (c - a).transpose();
+  return sides.inverse();
+}
+
+LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
+                      const std::vector<TriangleWater>& water, const Freedoms& freedoms) {
+  std::vector<Lame> materials;
+  for (const SoilCase& soil : scene.soils) materials.push_back(lame(soil));
+  LinearSystem system{Eigen::SparseMatrix<double>(freedoms.unknowns, freedoms.unknowns),
+                      Eigen::VectorXd::Zero(freedoms.unknowns)};
+  Triplets lower;
+  lower.reserve(mesh.triangles.size() * node_count * (2 * node_count + 1));
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Corners c = corners(mesh, t);
+    const int soil = mesh.soils[t];
+    add_stiffness(element_stiffness(materials[soil], c), p4mesh.triangles[t], freedoms, lower);
+    add_load(volume_load(unit_weight(scene, scene.soils[soil], water[t]), water[t], c), p4mesh.triangles[t],
+             freedoms, system.load);
+  }
+  for (const auto& [t, edge] : p4mesh.outline)
+    add_load(outline_load(scene, water[t], corners(mesh, t), edge), p4mesh.triangles[t], freedoms,
+             system.load);
+  system.stiffness.setFromTriplets(lower.begin(), lower.end());
+  return system;
+}
+
+}  // namespace porosph

@@ -1,0 +1,128 @@
+#include "solver/reference/fem/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "solver/reference/fem/elasticity.hpp"
+#include "solver/reference/fem/rough_points.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr double tolerable = 0.05;
+constexpr double least_share =
+    0.2;  ///< of the field's norm, below which a component is measured by the field
+
+constexpr int stresses = 4, quantities = 6;
+constexpr std::array<const char*, quantities> names{"EffectiveStress_XX", "EffectiveStress_YY",
+                                                    "EffectiveStress_ZZ", "EffectiveStress_XY",
+                                                    "Displacement_X",     "Displacement_Y"};
+using Values = Eigen::Array<double, quantities, 1>;
+
+/// Places that do not count.
+class LeftOut {
+ public:
+  LeftOut(const Case& scene, double spacing) : points_(rough_points(scene, mesh_lines(scene))) {
+    for (const RoughPoint& p : points_) {
+      const double wanted = (p.kind == RoughPoint::singular ? 5 : 2.5) * spacing;
+      radii_.push_back(std::min(wanted, std::max(1.5 * spacing, p.shortest / 2)));
+    }
+  }
+  bool contain(const Point& x) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if ((x - points_[i].at).norm() < radii_[i]) return true;
+    return false;
+  }
+
+ private:
+  std::vector<RoughPoint> points_;
+  std::vector<double> radii_;
+};
+
+/// Sums over the particles of one soil.
+struct Sums {
+  Values difference = Values::Zero(), reference = Values::Zero(), largest = Values::Zero();
+  std::array<Point, quantities> where{};
+  double volume = 0, strain = 0;
+  std::int64_t particles = 0, left_out = 0;
+
+  void add(const Values& run, const Values& fem, const Point& x, double weight) {
+    const Values d = run - fem;
+    difference += weight * d.square();
+    reference += weight * fem.square();
+    for (int q = 0; q < quantities; ++q)
+      if (!(std::abs(d[q]) <= largest[q])) largest[q] = std::abs(d[q]), where[q] = x;
+    ++particles;
+  }
+
+  FemSoilCheck finished() const {
+    FemSoilCheck soil{particles, left_out, std::sqrt(strain / volume), {}};
+    if (particles == 0) return soil;
+    for (int q = 0; q < quantities; ++q) {
+      const double field = std::sqrt(q < stresses ? reference.head<stresses>().sum()
+                                                  : reference.tail<quantities - stresses>().sum());
+      const double off = std::sqrt(difference[q]), size = std::sqrt(reference[q]);
+      const bool is_zero = size <= 1e-9 * field;
+      soil.fields[names[q]] = {.relative_l2 = is_zero ? std::numeric_limits<double>::quiet_NaN() : off / size,
+                               .relative = off / std::max(size, least_share * field),
+                               .max_abs = largest[q],
+                               .x = where[q].x(),
+                               .y = where[q].y()};
+    }
+    return soil;
+  }
+};
+
+Values values_of(const Particles& p, std::size_t i) {
+  const Stress& s = p.stress[i];
+  const Vec2 u = p.displacement(i);
+  return {s.xx, s.yy, s.zz, s.xy, u.x(), u.y()};
+}
+
+Values values_of(const FemPoint& p) {
+  Values v;
+  v << p.effective_stress.array(), p.displacement.array();
+  return v;
+}
+
+}  // namespace
+
+FemCheck compare_with_fem(const Case& scene, const Particles& p, const FemSolution& fem) {
+  const LeftOut left_out(scene, scene.particles.spacing);
+  std::vector<Sums> sums(scene.soils.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Sums& of_soil = sums[p.soil[i]];
+    const auto reference = fem.in_soil(p.soil[i], p.start[i]);
+    if (!reference) continue;
+    const double strain = largest_strain(lame(scene.soils[p.soil[i]]), reference->effective_stress);
+    of_soil.volume += p.volume(i), of_soil.strain += p.volume(i) * strain * strain;
+    if (left_out.contain(p.start[i]))
+      ++of_soil.left_out;
+    else
+      of_soil.add(values_of(p, i), values_of(*reference), p.start[i], p.volume(i));
+  }
+  FemCheck check;
+  check.unknowns = fem.unknowns;
+  double strain = 0;
+  std::int64_t particles = 0;
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    if (sums[s].volume == 0) continue;
+    const FemSoilCheck& soil = check.soils[scene.soils[s].name] = sums[s].finished();
+    strain = std::max(strain, soil.strain), particles += soil.particles;
+  }
+  if (particles == 0) throw std::runtime_error("every particle is near a point where stress is singular");
+  check.limit = tolerable + strain;
+  return check;
+}
+
+std::string short_name(const std::string& field) {
+  std::string component = field.substr(field.find('_') + 1);
+  for (char& c : component) c = static_cast<char>(std::tolower(c));
+  return (field.starts_with("EffectiveStress") ? "sigma'_" : "u_") + component;
+}
+
+}  // namespace porosph

@@ -1,0 +1,164 @@
+// What is said where a run is far from finite elements.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/case/shapes.hpp"
+#include "solver/reference/fem/compare.hpp"
+#include "solver/reference/fem/rough_points.hpp"
+#include "solver/water/still_water.hpp"
+
+namespace porosph {
+namespace {
+
+/// Of a soil that are enough for its stress to be resolved.
+constexpr double enough_rows = 4;
+constexpr double noticeable_contrast = 2, noticeable_volume = 0.01, noticeable_strain = 0.02;
+
+bool touch(const SoilCase& a, const SoilCase& b, double dx) { return distance(a, b) < 1e-3 * dx; }
+
+/// Area that the particles of a soil stand for over that of its outline, at t = 0.
+double carried_area(const Case& scene, const Particles& p, int soil) {
+  const SoilCase& s = scene.soils[soil];
+  const Water water(at_rest_from(scene.water, 0));
+  double carried = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.soil[i] != soil) continue;
+    const bool wet = water.depth(p.start[i].x(), p.start[i].y()) > 0;
+    carried +=
+        p.mass[i] * scene.loading.gravity / (wet ? s.unit_weight_saturated : s.unit_weight_unsaturated);
+  }
+  return carried / area(s);
+}
+
+std::vector<std::string> of_the_formulation(const Case& scene) {
+  const Motion motion = scene.formulation.motion;
+  if (motion == Motion::conventional && scene.water.present())
+    return {
+        "the conventional form, eq. (17), is known to be wrong under water: the pore pressure acts as a "
+        "suction on "
+        "free surfaces"};
+  if (motion == Motion::rho_squared && scene.soils.size() > 1)
+    return {"eq. (25) is known to be wrong where soils of different weight meet"};
+  return {};
+}
+
+std::vector<std::string> of_the_soil(const Case& scene, const Particles& p, int soil) {
+  std::vector<std::string> causes;
+  const double dx = scene.particles.spacing;
+  const SoilCase& s = scene.soils[soil];
+  if (const double rows = thickness(s.polygon) / dx; rows < enough_rows)
+    causes.push_back(fmt::format("soil '{}' is only {:.2g} spacings thick", s.name, rows));
+  for (const SoilCase& other : scene.soils) {
+    if (&other == &s || !touch(s, other, dx)) continue;
+    const double ratio = s.youngs_modulus / other.youngs_modulus, contrast = std::max(ratio, 1 / ratio);
+    if (contrast >= noticeable_contrast)
+      causes.push_back(fmt::format("soil '{}' beside it is {:.3g} times as {}", other.name, contrast,
+                                   ratio > 1 ? "soft" : "stiff"));
+  }
+  for (int i = 0; i < static_cast<int>(scene.soils.size()); ++i) {
+    const double carried = carried_area(scene, p, i);
+    if (std::abs(carried - 1) > noticeable_volume)
+      causes.push_back(
+          fmt::format("the particles of soil '{}' carry {:.1f} % of its area (arrangement = \"fitted\" or "
+                      "\"surface\" carries all of it)",
+                      scene.soils[i].name, 100 * carried));
+  }
+  return causes;
+}
+
+/// Axis-parallel, so that a lattice follows it.
+bool is_upright(const Polygon& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point side = outline[(i + 1) % outline.size()] - outline[i];
+    if (side.x() != 0 && side.y() != 0) return false;
+  }
+  return true;
+}
+
+std::vector<std::string> of_the_arrangement(const Case& scene) {
+  if (scene.particles.arrangement == Arrangement::disordered) return {"the particles are disordered"};
+  const bool upright = std::all_of(scene.soils.begin(), scene.soils.end(),
+                                   [](const SoilCase& soil) { return is_upright(soil.polygon); });
+  if (scene.particles.arrangement == Arrangement::lattice && !upright)
+    return {"the lattice follows inclined lines in steps (arrangement = \"fitted\" or \"surface\" does not)"};
+  return {};
+}
+
+/// Whether particles see only one side there.
+bool at_the_outline(const Case& scene, const Point& x) {
+  const double reach = 2 * scene.smoothing_length();
+  const MeshLines lines = mesh_lines(scene);
+  return std::any_of(lines.lines.begin(), lines.lines.end(), [&](const MeshLine& line) {
+    return line.outline() && distance(x, x, lines.points[line.from], lines.points[line.to]) < reach;
+  });
+}
+
+std::vector<std::string> of_the_place(const Case& scene, const Point& x) {
+  constexpr double near = 8;  // spacings
+  const RoughPoint* nearest = nullptr;
+  const std::vector<RoughPoint> points = rough_points(scene, mesh_lines(scene));
+  for (const RoughPoint& p : points)
+    if (p.kind != RoughPoint::weak && (!nearest || (p.at - x).norm() < (nearest->at - x).norm()))
+      nearest = &p;
+  if (!nearest || (nearest->at - x).norm() > near * scene.particles.spacing) return {};
+  return {fmt::format("the corner at ({:.10g}, {:.10g}) is near", nearest->at.x(), nearest->at.y())};
+}
+
+std::vector<std::string> causes(const Case& scene, const Particles& p, const FemSoilCheck& check, int soil,
+                                const Point& where) {
+  std::vector<std::string> all = of_the_formulation(scene);
+  const auto add = [&](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (check.strain > noticeable_strain)
+    add({fmt::format("its strain of {:.1f} % is more than finite elements of small strain are made for",
+                     100 * check.strain)});
+  add(of_the_soil(scene, p, soil));
+  add(of_the_arrangement(scene));
+  add(of_the_place(scene, where));
+  if (at_the_outline(scene, where))
+    add({fmt::format(
+        "it is within the kernel's reach of the outline, and the section is resolved by spacings of {:g} m",
+        scene.particles.spacing)});
+  return all;
+}
+
+/// The component of a kind that is furthest off, nullptr if none is beyond the limit.
+const std::pair<const std::string, FemDifference>* worst(const FemSoilCheck& soil, std::string_view kind,
+                                                         double limit) {
+  const std::pair<const std::string, FemDifference>* found = nullptr;
+  for (const auto& field : soil.fields)
+    if (field.first.starts_with(kind) && !(field.second.relative <= limit) &&
+        (!found || !(field.second.relative <= found->second.relative)))
+      found = &field;
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> fem_warnings(const Case& scene, const Particles& p, const FemCheck& check) {
+  std::vector<std::string> warnings;
+  for (int s = 0; s < static_cast<int>(scene.soils.size()); ++s) {
+    const auto soil = check.soils.find(scene.soils[s].name);
+    if (soil == check.soils.end()) continue;
+    for (const std::string_view kind : {"EffectiveStress", "Displacement"}) {
+      const auto* field = worst(soil->second, kind, check.limit);
+      if (!field) continue;
+      const auto& [name, d] = *field;
+      const bool stress = kind == "EffectiveStress";
+      const std::vector<std::string> why = causes(scene, p, soil->second, s, {d.x, d.y});
+      warnings.push_back(fmt::format(
+          "{} of soil '{}' is {:.2g} % off finite elements, most at ({:.10g}, {:.10g}): {:.3g} {}; {}",
+          short_name(name), soil->first, 100 * d.relative, d.x, d.y, d.max_abs / (stress ? 1e3 : 1e-3),
+          stress ? "kPa" : "mm",
+          why.empty() ? "the cause is not known: compare with a smaller particles.spacing"
+                      : fmt::format("{}", fmt::join(why, "; "))));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace porosph

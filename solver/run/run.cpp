@@ -1,0 +1,206 @@
+#include "solver/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "solver/run/monitor/zigzag.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr std::int64_t steps_between_balances = 10, steps_between_energy_checks = 100,
+                       steps_between_searches = 200;
+
+/// Forces in balance at one instant may be a vibration passing its middle; they must stay so while a wave
+/// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
+class Equilibrium {
+ public:
+  explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
+    Vec2 low = s.model().particles.start.front(), high = low;
+    for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
+    if (!s.scene().water.level_over_time.empty()) water_rests_ = s.scene().water.level_over_time.back().x();
+  }
+
+  /// Keeps the last time out of balance, and the zigzag of displacements, in `progress`.
+  bool reached(Simulation& s, RunProgress& progress) const {
+    if (limit_ <= 0 || s.step() % steps_between_balances != 0) return false;
+    if (s.unbalanced_force_ratio() >= limit_) progress.unbalanced_at = s.time();
+    const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
+    const double needed = c > 0 ? std::min(needed_, 4 / c) : needed_;
+    return s.time() - std::max(progress.unbalanced_at, water_rests_) >= needed &&
+           !zigzag_grows(s, progress, needed);
+  }
+
+ private:
+  /// Displacements that alternate grow without forces that show: where there are any, they are looked at
+  /// again after the same while.
+  static bool zigzag_grows(const Simulation& s, RunProgress& progress, double needed) {
+    constexpr double none = 0.02, steady = 1.02;
+    if (progress.zigzag >= 0 && s.time() - progress.zigzag_at < needed) return true;
+    const double before = progress.zigzag, now = measure_zigzag(s.model()).rms;
+    progress.zigzag = now, progress.zigzag_at = s.time();
+    return now > none && (before < 0 || now > steady * before);
+  }
+
+  double limit_, needed_ = 0, water_rests_ = 0;
+};
+
+std::vector<double> history_row(const Simulation& s) {
+  std::vector<double> row = {s.time()};
+  for (const Probe& probe : s.probes()) {
+    const std::vector<double> values = probe.read(s.model().particles).values();
+    row.insert(row.end(), values.begin(), values.end());
+  }
+  return row;
+}
+
+/// Physical damping and viscosity only lose energy, so growth is an error of the motion equation.
+double energy_growth(const Simulation::Energy& now, const RunProgress& progress) {
+  return progress.most_at_work > 0 ? (now.total() - progress.energy_at_start) / progress.most_at_work : 0;
+}
+
+/// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
+/// level that moves or presses on a face: there energy tells nothing.
+bool keeps_energy(const Simulation& s) {
+  const Case& scene = s.scene();
+  return scene.water.level_over_time.empty() && s.model().water_faces.empty() &&
+         !(scene.water.present() && scene.formulation.motion == Motion::conventional);
+}
+
+/// Breakdown that does not show in a single step.
+class Guard {
+ public:
+  explicit Guard(const Simulation& s) : watches_energy_(keeps_energy(s)) {}
+
+  void look(Simulation& s, RunProgress& progress) const {
+    if (s.instability() || s.step() % steps_between_energy_checks != 0) return;
+    if (s.step() % steps_between_searches == 0) s.look_for_breakdown();
+    if (!s.instability()) weigh_energy(s, progress);
+    if (!s.instability()) s.remember();
+  }
+
+ private:
+  void weigh_energy(Simulation& s, RunProgress& progress) const {
+    constexpr double tolerable = 0.5;
+    const Simulation::Energy now = s.energy();
+    // A vibration has moments of little motion and little strain: its largest is what growth is measured by.
+    progress.most_at_work = std::max(progress.most_at_work, now.kinetic + now.elastic);
+    const double gained = energy_growth(now, progress);
+    if (watches_energy_ && !(gained <= tolerable))
+      s.stop(energy_gain(s.model(), s.velocities(), gained, s.time()));
+  }
+
+  bool watches_energy_;
+};
+
+}  // namespace
+
+Schedule::Schedule(double interval, double time_step, std::int64_t last_step,
+                   const std::vector<double>& times)
+    : interval_(interval), dt_(time_step), last_(last_step) {
+  for (const double time : times) at_times_.insert(std::llround(time / time_step));
+}
+
+bool Schedule::due(std::int64_t step) const {
+  if (step == 0 || step == last_ || at_times_.contains(step)) return true;
+  if (interval_ <= 0) return false;
+  if (interval_ <= dt_) return true;
+  const double nearest = std::round(static_cast<double>(step) * dt_ / interval_);
+  return std::llround(nearest * interval_ / dt_) == step;
+}
+
+std::vector<std::string> history_columns(const Simulation& simulation) {
+  std::vector<std::string> columns = {"time"};
+  for (const Probe& probe : simulation.probes())
+    for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
+  return columns;
+}
+
+void RunProgress::visit(StateArchive& state) {
+  state.value("framed", framed);
+  state.value("recorded", recorded);
+  state.value("energy_at_start", energy_at_start);
+  state.value("most_at_work", most_at_work);
+  state.value("unbalanced_at", unbalanced_at);
+  state.value("zigzag", zigzag);
+  state.value("zigzag_at", zigzag_at);
+  state.value("stepping_seconds", stepping_seconds);
+}
+
+RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
+  using Clock = std::chrono::steady_clock;
+  const OutputCase& output = s.scene().output;
+  const Schedule frames(output.interval, s.time_step(), s.last_step(), output.times);
+  const double history_interval = output.history_interval > 0 ? output.history_interval : s.time_step();
+  const Schedule rows(history_interval, s.time_step(), s.last_step());
+  const Equilibrium equilibrium(s);
+  RunOutcome outcome;
+  const auto record = [&](bool frame_due, bool row_due) {
+    if (frame_due && progress.framed != s.step()) {
+      progress.framed = s.step();
+      if (watch.frame) watch.frame(s);
+    }
+    if (row_due && progress.recorded != s.step()) {
+      progress.recorded = s.step();
+      if (watch.history) watch.history(history_row(s));
+    }
+  };
+
+  if (!progress.has_begun()) {
+    const Simulation::Energy energy = s.energy();
+    progress.energy_at_start = energy.total();
+    progress.most_at_work = energy.kinetic + energy.elastic;
+    record(true, true);
+  } else {
+    record(frames.due(s.step()), rows.due(s.step()));  // where the end is later than it was
+  }
+  const Guard guard(s);
+  while (s.step() < s.last_step()) {
+    const auto before = Clock::now();
+    s.advance();
+    guard.look(s, progress);
+    bool settled = !s.instability() && equilibrium.reached(s, progress);
+    if (settled) {
+      s.look_for_breakdown();
+      settled = !s.instability();
+    }
+    progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    if (s.instability()) {
+      outcome.status = RunStatus::unstable;
+      outcome.message = s.instability()->message;
+      break;
+    }
+    const bool last = s.step() == s.last_step();
+    if (last && !settled && watch.checkpoint) watch.checkpoint(s, progress, true);
+    record(frames.due(s.step()), rows.due(s.step()));
+    if (watch.progress) watch.progress(s);
+    const bool interrupted = !last && !settled && watch.interrupted && watch.interrupted();
+    if (watch.checkpoint && !last && !settled) watch.checkpoint(s, progress, interrupted);
+    if (settled) {
+      outcome.status = RunStatus::equilibrium;
+      outcome.message =
+          fmt::format("unbalanced force ratio below {:g}", s.scene().stop.unbalanced_force_ratio);
+    } else if (interrupted) {
+      outcome.status = RunStatus::interrupted;
+      outcome.message = "stopped by request";
+    }
+    if (outcome.status != RunStatus::completed) break;
+  }
+  outcome.stepping_seconds = progress.stepping_seconds;
+  const bool showable = outcome.status != RunStatus::unstable || s.showable();
+  if (showable)
+    record(true, true);
+  else if (s.exchange_with_last_good()) {
+    record(progress.framed < s.step(), false);
+    s.exchange_with_last_good();
+  }
+  const Simulation::Energy energy = s.energy();
+  progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
+  outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
+  return outcome;
+}
+
+}  // namespace porosph

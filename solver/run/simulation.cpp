@@ -1,0 +1,228 @@
+#include "solver/run/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solver/run/highest_frequency.hpp"
+#include "solver/run/leapfrog.hpp"
+#include "solver/run/monitor/energy.hpp"
+#include "solver/space/parallel.hpp"
+
+namespace porosph {
+
+namespace {
+
+/// omega h / c_p of a lattice, at its corners, for which Courant numbers are meant.
+constexpr double lattice_frequency = 1.7;
+
+/// The case's, or less where disorder makes single particles stiffer than they are in a lattice.
+double courant_number(const Case& scene, const Model& model) {
+  if (scene.particles.arrangement != Arrangement::disordered) return scene.time.courant;
+  const double frequency =
+      highest_frequency(scene.formulation, model) * model.smoothing_length / model.wave_speed;
+  return scene.time.courant * std::min(1.0, lattice_frequency / frequency);
+}
+
+/// The case's, or else the largest that the Courant number allows, rounded down so that whole steps reach the
+/// end time [s].
+double time_step_of(const Case& scene, const Model& model, double courant) {
+  const double largest = courant * model.smoothing_length / model.wave_speed;
+  const double given = scene.time.step;
+  if (given > largest * (1 + 1e-12))
+    throw std::runtime_error(fmt::format(
+        "time.step = {:g} s: must be <= {:g} s, as the Courant number is {:g}", given, largest, courant));
+  if (given > 0) return given;
+  return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
+}
+
+/// Kicks and moves particles first to last - 1; returns how many of them are faster than `limit`, the square
+/// of a speed, or not finite, or turned inside out. One loop over plain numbers, so that it becomes vector
+/// code.
+std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, double dt, double limit,
+                            Particles& p, const std::vector<Vec2>& accelerations) {
+  double *v = p.velocity.data()->data(), *x = p.position.data()->data();
+  const double *a = accelerations.data()->data(), *density = p.density.data();
+  std::int64_t runaways = 0;
+#pragma omp simd reduction(+ : runaways)
+  for (std::size_t i = first; i < last; ++i) {
+    const double vx = kick.keep * v[2 * i] + kick.gain * a[2 * i];
+    const double vy = kick.keep * v[2 * i + 1] + kick.gain * a[2 * i + 1];
+    v[2 * i] = vx, v[2 * i + 1] = vy;
+    x[2 * i] += dt * vx, x[2 * i + 1] += dt * vy;
+    runaways += vx * vx + vy * vy < limit && density[i] > 0 ? 0 : 1;
+  }
+  return runaways;
+}
+
+void visit_particles(StateArchive& state, Particles& p) {
+  p.for_each_changing([&](std::string_view name, auto& values) { state.array(name, values); });
+}
+
+}  // namespace
+
+Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
+    : scene_(scene),
+      model_(build_model(scene)),
+      dynamics_(dynamics(scene.formulation, model_)),
+      courant_(courant_number(scene, model_)),
+      dt_(time_step_of(scene, model_, courant_)),
+      last_step_(std::llround(std::ceil(scene.time.end / dt_ * (1 - 1e-12)))),
+      accelerations_(model_.particles.size(), Vec2::Zero()) {
+  for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
+  closest_at_start_ = closest_distance(model_.particles.position, 2 * model_.spacing);
+  if (scene.stop.on_separation)
+    bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
+}
+
+void Simulation::set_law(const std::string& soil, AnyLaw law) {
+  const auto& soils = scene_.soils;
+  const auto found = std::ranges::find(soils, soil, &SoilCase::name);
+  if (found == soils.end()) throw std::invalid_argument(fmt::format("no soil is called '{}'", soil));
+  Soil& old = model_.soils[found - soils.begin()];
+  Soil changed(std::move(law));
+  if (changed.constrained_modulus() > old.constrained_modulus() * (1 + 1e-12))
+    throw std::invalid_argument(
+        fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",
+                    soil, changed.constrained_modulus(), old.constrained_modulus()));
+  changed.add_history(model_.particles);
+  old = std::move(changed);
+}
+
+double Simulation::damping() const {
+  const LoadingCase& loading = scene_.loading;
+  if (time() >= loading.damping_until) return 0;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / dt_;
+}
+
+std::span<const Vec2> Simulation::accelerations() {
+  if (!accelerations_valid_) {
+    dynamics_->prepare();
+    dynamics_->accelerations(accelerations_);
+    add_water_pressure(model_.water_faces, model_.water, model_.particles, accelerations_);
+    accelerations_valid_ = true;
+  }
+  return accelerations_;
+}
+
+std::vector<Vec2> Simulation::velocities() {
+  std::vector<Vec2> v = model_.particles.velocity;
+  if (step_ == 0) return v;
+  const auto a = accelerations();
+  const Kick kick = half_kick(damping(), dt_);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
+  return v;
+}
+
+void Simulation::advance() {
+  if (instability_) return;
+  accelerations();
+  const bool measure = scene_.loading.adaptive_damping && step_ % Relaxation::steps_between == 0;
+  if (measure) before_ = accelerations_;
+  drift();
+  accelerations_valid_ = false;
+  ++step_;
+  if (instability_) return;
+  dynamics_->strain(dt_);
+  if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
+}
+
+/// v^{n+1/2} and x^{n+1}, and the pore pressure there.
+void Simulation::drift() {
+  Particles& p = model_.particles;
+  const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
+  const bool wet = model_.water.present();
+  const double then = static_cast<double>(step_ + 1) * dt_;
+  model_.water.set_time(then);
+  const double limit = model_.wave_speed * model_.wave_speed;
+  std::int64_t runaways = 0;
+#pragma omp parallel reduction(+ : runaways)
+  {
+    const auto [first, last] = thread_range(p.size());
+    runaways = move_particles(first, last, kick, dt_, limit, p, accelerations_);
+    if (wet) model_.water.pore_pressures(p, first, last);
+  }
+  runaway_ = runaways > 0;
+  if (runaway_) name_breakdown(then);
+}
+
+void Simulation::visit(StateArchive& state) {
+  bool prepared = accelerations_valid_;
+  Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
+  state.value("step", step_);
+  state.value("prepared", prepared);
+  state.value("searches", counts_then.searches);
+  state.value("refreshes", counts_then.refreshes);
+  state.value("closures", counts_then.closures);
+  visit_particles(state, model_.particles);
+  for (std::optional<State>* remembered : {&good_, &good_before_}) visit_remembered(state, *remembered);
+  state.value("relaxation_stiffness", relaxation_.stiffness);
+  state.value("relaxation_inertia", relaxation_.inertia);
+  state.value("relaxation_damping", relaxation_.damping);
+  dynamics_->visit(state);
+  if (!state.restoring()) return;
+  model_.water.set_time(time());
+  accelerations_valid_ = false;
+  if (prepared) accelerations();
+  counts = counts_then;
+}
+
+void Simulation::visit_remembered(StateArchive& state, std::optional<State>& remembered) const {
+  bool is_there = remembered.has_value();
+  state.value("remembered", is_there);
+  if (!is_there) return remembered.reset();
+  if (state.restoring()) remembered = State{model_.particles, accelerations_, 0};
+  state.value("remembered_step", remembered->step);
+  visit_particles(state, remembered->particles);
+  state.array("remembered_accelerations", remembered->accelerations);
+}
+
+/// What the conventional form throws off is fast in the end, but that it left is what went wrong first.
+void Simulation::name_breakdown(double time) {
+  instability_ = find_runaway(model_, time);
+  const bool throws_off = scene_.formulation.motion == Motion::conventional && scene_.stop.on_separation;
+  if (!throws_off || instability_->cause != Cause::too_fast) return;
+  for (const Vec2& x : model_.particles.position)
+    if (!x.allFinite()) return;
+  if (auto separation = find_separation(model_, bodies_at_start_, time)) instability_ = std::move(separation);
+}
+
+void Simulation::look_for_breakdown() {
+  constexpr double met = 0.25;  // of the smallest distance at the start
+  if (!instability_) instability_ = find_crossing(model_, met * closest_at_start_, time());
+  if (!instability_) instability_ = find_beyond_wall(model_, time());
+  if (scene_.stop.on_separation && !instability_)
+    instability_ = find_separation(model_, bodies_at_start_, time());
+}
+
+void Simulation::remember() {
+  good_before_ = std::move(good_);
+  const auto a = accelerations();
+  good_ = State{model_.particles, {a.begin(), a.end()}, step_};
+}
+
+bool Simulation::exchange_with_last_good() {
+  std::optional<State>& good = good_before_ ? good_before_ : good_;
+  if (!good) return false;
+  std::swap(model_.particles, good->particles);
+  std::swap(accelerations_, good->accelerations);
+  std::swap(step_, good->step);
+  accelerations_valid_ = true;
+  return true;
+}
+
+double Simulation::unbalanced_force_ratio() {
+  return porosph::unbalanced_force_ratio(model_, accelerations());
+}
+
+Simulation::Energy Simulation::energy() {
+  const std::vector<Vec2> v = velocities();
+  return {.kinetic = kinetic_energy(model_.particles, v),
+          .elastic = elastic_energy(model_),
+          .gravity = gravity_energy(model_),
+          .water = water_energy(model_)};
+}
+
+}  // namespace porosph

@@ -1,0 +1,104 @@
+// A case in motion.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/model/model.hpp"
+#include "solver/run/monitor/instability.hpp"
+#include "solver/run/probe.hpp"
+#include "solver/run/relaxation.hpp"
+#include "solver/sph/dynamics.hpp"
+
+namespace porosph {
+
+/// Advances a case step by step. Not copyable; one thread calls it, it uses OpenMP inside.
+class Simulation {
+ public:
+  /// Throws std::runtime_error where the case cannot be built (no particles, boundary touching nothing, ...).
+  /// `dynamics`: another implementation than the case's own, to be compared with it.
+  explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
+
+  /// Gives a soil another law, before the first step. Throws std::invalid_argument where no soil has that
+  /// name, or where the law is stiffer than the soil that sets the time step.
+  void set_law(const std::string& soil, AnyLaw law);
+
+  /// One leapfrog step. Does nothing once the run has become unstable.
+  void advance();
+
+  std::int64_t step() const { return step_; }
+  std::int64_t last_step() const { return last_step_; }  ///< the step that reaches the case's end time
+  double time() const { return static_cast<double>(step_) * dt_; }  ///< [s]
+  double time_step() const { return dt_; }                          ///< [s]
+  double courant() const { return courant_; }  ///< the case's, or less where disorder requires it
+  const Case& scene() const { return scene_; }
+  const Model& model() const { return model_; }
+  const std::vector<Probe>& probes() const { return probes_; }
+  const Dynamics& dynamics() const { return *dynamics_; }
+
+  /// Accelerations at the present instant, damping left out [m/s2].
+  std::span<const Vec2> accelerations();
+  /// Velocities at the present instant (the integrator's are half a step behind) [m/s].
+  std::vector<Vec2> velocities();
+
+  /// Root mean square of the unbalanced forces over that of the weights; infinite in a weightless scene.
+  double unbalanced_force_ratio();
+  struct Energy {
+    double kinetic = 0, elastic = 0, gravity = 0, water = 0;  ///< per metre of thickness [J/m]
+    double total() const { return kinetic + elastic + gravity + water; }
+  };
+  /// Energy at the present instant; gravity and buoyancy relative to the start.
+  Energy energy();
+
+  /// What went wrong, where, and what usually causes it; empty while all is well.
+  const std::optional<Breakdown>& instability() const { return instability_; }
+  /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
+  bool showable() const { return !runaway_; }
+  /// Looks for particles that have met or left the body (costs a neighbour search).
+  void look_for_breakdown();
+  /// Ends the simulation for a reason that the caller found.
+  void stop(Breakdown reason) { instability_ = std::move(reason); }
+
+  /// Keeps a copy of the present state as a good one. The last two are kept, as the last may have been good
+  /// only in appearance.
+  void remember();
+  /// Puts the older of the remembered states in the place of the present one, and the present one in its
+  /// place; to be looked at only, not to go on from. Returns false where none is remembered.
+  bool exchange_with_last_good();
+
+  /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
+  /// restored into goes on to the same bits. Throws StateError.
+  void visit(StateArchive& state);
+  double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
+
+ private:
+  void drift();
+  void name_breakdown(double time);
+
+  Case scene_;
+  Model model_;
+  std::unique_ptr<Dynamics> dynamics_;
+  std::vector<Probe> probes_;
+  double courant_ = 0, dt_ = 0;
+  std::int64_t step_ = 0, last_step_ = 0;
+  std::vector<Vec2> accelerations_;
+  std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
+  Relaxation relaxation_;     ///< unused unless the case's damping is adaptive
+  bool accelerations_valid_ = false;
+  std::int64_t bodies_at_start_ = 0;
+  std::optional<Breakdown> instability_;
+  bool runaway_ = false;
+
+  struct State {
+    Particles particles;
+    std::vector<Vec2> accelerations;
+    std::int64_t step = 0;
+  };
+  void visit_remembered(StateArchive& state, std::optional<State>& remembered) const;
+  std::optional<State> good_, good_before_;
+  double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
+};
+
+}  // namespace porosph

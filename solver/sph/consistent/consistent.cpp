@@ -1,0 +1,161 @@
+#include "solver/sph/consistent/consistent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/sph/neighbours/neighbour_list.hpp"
+
+namespace porosph {
+namespace {
+
+/// rho c_p for the zero-energy viscosity: of the lightest soil, whose particles it could otherwise push too
+/// far in a step, and of the fastest wave, which sets the step.
+double controlled_rho_c(const Model& model) {
+  const auto& density = model.particles.density;
+  return *std::min_element(density.begin(), density.end()) * model.wave_speed;
+}
+
+}  // namespace
+
+ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
+    : model_(model),
+      formulation_(formulation),
+      kernel_(model.smoothing_length),
+      kernels_(consistent_kernels(units)),
+      soils_(model),
+      control_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) * model.smoothing_length) {
+}
+
+void ConsistentDynamics::prepare() {
+  const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
+  const bool due = !reference_.made() || largest_strain_ > formulation_.refresh_strain || close;
+  if (!due) return;
+  rebuild_reference();
+  fluxes_.take_velocities(reference_, model_.particles);
+  strain_all(0);
+  largest_strain_ = 0;
+  travel_ = 0;
+  ++counts.refreshes;
+}
+
+/// For the particles where they are now, undeformed.
+void ConsistentDynamics::rebuild_reference() {
+  reference_ = make_reference(model_, formulation_);
+  counts.searches += 1;
+  counts.closures += reference_.closed() ? 1 : 0;
+  own_sides_ = find_own_sides(reference_, model_);
+  soils_.set_own_sides(own_sides_.place);
+  spring_ = ZeroEnergySpring(formulation_, model_, reference_, own_sides_);
+  fluxes_ = Fluxes(reference_, model_, spring_.active());
+  connect_arrays();
+}
+
+void ConsistentDynamics::connect_arrays() {
+  Particles& p = model_.particles;
+  arrays_.reference = reference_.view(p);
+  arrays_.state.stress = &p.stress.data()->xx;
+  arrays_.state.density = p.density.data();
+  arrays_.state.interface_stress = p.interface_stress.data();
+  own_sides_.connect(arrays_.state.own_sides);
+  arrays_.state.own_sides.rate = spring_.of_own_sides().data();
+  arrays_.control = {.viscosity = control_viscosity_,
+                     .rate = spring_.of_soils().data(),
+                     .bulk_length = formulation_.bulk_viscosity * model_.smoothing_length};
+  arrays_.gravity[0] = model_.gravity.x(), arrays_.gravity[1] = model_.gravity.y();
+  fluxes_.connect(arrays_, reference_);
+}
+
+/// True when two particles came closer than the kernel's support, by a margin, without being neighbours.
+bool ConsistentDynamics::strangers_are_near() {
+  travel_ = 0;
+  const auto& position = model_.particles.position;
+  const std::size_t n = position.size();
+  const NeighbourList now = find_neighbours(position, n, kernel_.support() - 0.2 * model_.spacing);
+  ++counts.searches;
+  bool found = false;
+#pragma omp parallel for schedule(static) reduction(|| : found)
+  for (std::size_t a = 0; a < n; ++a)
+    for (const std::int32_t b : now.of(a))
+      found = found || (!reference_.stencils.are_neighbours(static_cast<std::int32_t>(a), b) &&
+                        model_.visibility.sees(static_cast<std::int32_t>(a), b, model_.particles));
+  return found;
+}
+
+/// Carries all particles over a step dt with the velocities taken; dt = 0 only writes the fluxes.
+LargestChange ConsistentDynamics::strain_all(double dt) {
+  arrays_.state.soils = soils_.view();
+  double strain = 0, speed_squared = 0;
+#pragma omp parallel for schedule(static) reduction(max : strain, speed_squared)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
+    LargestChange largest;
+    kernels_.strain(arrays_, tile, dt, largest);
+    strain = std::max(strain, largest.strain);
+    speed_squared = std::max(speed_squared, largest.speed_squared);
+  }
+  return {strain, speed_squared};
+}
+
+void ConsistentDynamics::accelerations(std::span<Vec2> out) {
+  fluxes_.prepare_forces(reference_, model_, spring_);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
+    kernels_.accelerate(arrays_, tile, out.data()->data());
+  spring_.soften_pairs(
+      reference_, model_.particles, control_viscosity_, [&](std::int32_t a) { return own_strain(a); }, out);
+}
+
+/// F - I of a particle's own side.
+Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
+  const Mat2 strain = fluxes_.deformation(a) - Mat2::Identity();
+  const std::int32_t place = own_sides_.empty() ? -1 : own_sides_.place[a];
+  return place < 0 ? strain : own_sides_.of(place, strain);
+}
+
+void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
+  fluxes_.take_velocities(reference_, model_.particles);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
+    std::array<PlaneTensor, PairStencils::tile> rate;
+    kernels_.rates(arrays_, tile, rate.data()->data());
+    const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
+      out[a] = matrix(rate[a - first]) * inverse(fluxes_.deformation(a));
+      if (!own_sides_.empty() && own_sides_.place[a] >= 0)
+        out[a] = own_sides_.rate_of(own_sides_.place[a], out[a]);
+    }
+  }
+}
+
+void ConsistentDynamics::strain(double dt) {
+  fluxes_.take_velocities(reference_, model_.particles);
+  const LargestChange largest = strain_all(dt);
+  largest_strain_ = largest.strain;
+  travel_ += dt * std::sqrt(largest.speed_squared);
+}
+
+void ConsistentDynamics::visit(StateArchive& state) {
+  bool made = reference_.made();
+  state.value("has_reference", made);
+  if (!made) return;
+  Particles& p = model_.particles;
+  std::vector<Vec2> positions(p.size());
+  std::vector<double> densities(p.size());
+  if (!state.restoring()) {
+    std::copy_n(reference_.points.begin(), p.size(), positions.begin());
+    densities = reference_.density;
+  }
+  state.array("reference_position", positions);
+  state.array("reference_density", densities);
+  if (state.restoring()) {  // the reference is rebuilt from where the particles were at its making
+    p.position.swap(positions), p.density.swap(densities);
+    rebuild_reference();
+    p.position.swap(positions), p.density.swap(densities);
+    connect_arrays();
+    fluxes_.take_velocities(reference_, p);
+  }
+  fluxes_.visit(state, reference_);
+  state.value("largest_strain", largest_strain_);
+  state.value("travel", travel_);
+}
+
+}  // namespace porosph

@@ -1,0 +1,57 @@
+// The consistent form: the exact adjoint of the strain rate, on a reference configuration.
+#pragma once
+
+#include "solver/sph/consistent/fluxes.hpp"
+#include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/dynamics.hpp"
+#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/kernels/consistent_kernels.hpp"
+#include "solver/sph/soil_views.hpp"
+
+namespace porosph {
+
+/// Each stress acts with its own correction matrix (Bonet and Lok 1999), so that the forces are the adjoint
+/// of the strain-rate operator and conserve momentum and energy:
+///
+///   rho0_a a_a = sum_b V_b (P_a L_a + P_b L_b) grad W_ab  +  J_a F_a^-T L_a sum_b V_b (p_b - p_a) grad W_ab
+///   +  rho0_a g dF_a/dt    = sum_b V_b (v_b - v_a) (x) L_a grad W_ab,       P = J sigma' F^-T
+///
+/// In disorder, L_a grad W_ab becomes L_a grad W_ab + (kappa_b - kappa_a) F_ab: see closed_gradients.hpp.
+///
+/// Kernel gradients, volumes V and densities rho0 belong to a reference configuration: that of the last
+/// refresh. F is the deformation since then, so the reference may be old without an error in strain or
+/// energy. It is rebuilt when |F - I| exceeds the case's refresh_strain, and when particles come near that
+/// were no neighbours.
+class ConsistentDynamics final : public Dynamics {
+ public:
+  ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units = vector_units());
+
+  void prepare() override;
+  void accelerations(std::span<Vec2> out) override;
+  void velocity_gradients(std::span<Mat2> out) override;
+  void strain(double dt) override;
+  void visit(StateArchive& state) override;
+
+ private:
+  void rebuild_reference();
+  void connect_arrays();
+  bool strangers_are_near();
+  LargestChange strain_all(double dt);
+  Mat2 own_strain(std::size_t particle) const;
+
+  Model& model_;
+  FormulationCase formulation_;
+  CubicSpline<2> kernel_;
+  const ConsistentKernels& kernels_;
+  SoilViews soils_;
+  double control_viscosity_;  ///< mu of the zero-energy control [Pa s]
+  ReferenceConfiguration reference_;
+  OwnSides own_sides_;
+  ZeroEnergySpring spring_;
+  Fluxes fluxes_;              ///< since the reference
+  ConsistentArrays arrays_{};  ///< all these, as the kernels see them
+  double largest_strain_ = 0;  ///< |F - I| since the reference
+  double travel_ = 0;          ///< bound on any particle's path since neighbours were looked at [m]
+};
+
+}  // namespace porosph

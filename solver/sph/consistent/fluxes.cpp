@@ -1,0 +1,116 @@
+#include "solver/sph/consistent/fluxes.hpp"
+
+#include <algorithm>
+
+namespace porosph {
+
+Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control)
+    : behind_walls_(r, model.walls) {
+  const Particles& p = model.particles;
+  const std::size_t all = r.points.size();
+  deformation_.assign(p.size(), Mat2::Identity());
+  flux_.resize(all);
+  for (auto& v : velocity_) v.resize(all);
+  const bool wet = model.water.present() || std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(),
+                                                        [](double w) { return w != 0; });
+  if (wet) pressure_.resize(all);
+  if (elastic_control)
+    for (auto& m : controlled_) m.resize(all);
+  records_.resize(all);
+  mirrored_.assign(p.size(), r.closed() ? 1 : 0);
+  behind_walls_.mark_used(r, mirrored_);
+  piola_.resize(all);
+  ghost_positions_.resize(r.ghosts.size());
+}
+
+/// Writes the vector of_particle(a) of each particle, and of their ghosts what moves with it, into `field`
+/// and the records' velocity lanes.
+template <class Of>
+void Fluxes::spread(const ReferenceConfiguration& r, std::array<std::vector<double>, 2>& field,
+                    Of&& of_particle) {
+  double *x = field[0].data(), *y = field[1].data();
+  const auto write = [&](std::size_t i, const Vec2& v) {
+    x[i] = v.x(), y[i] = v.y();
+    if (r.listed[i]) records_[i].q[velocity_lane] = v.x(), records_[i].q[velocity_lane + 1] = v.y();
+  };
+  const std::size_t n = r.particles();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) write(a, of_particle(a));
+  r.ghosts.fill<Mirrors::motion>([&](std::size_t k) { return Vec2(x[k], y[k]); }, write);
+}
+
+void Fluxes::take_velocities(const ReferenceConfiguration& r, const Particles& p) {
+  spread(r, velocity_, [&](std::size_t a) { return p.velocity[a]; });
+}
+
+void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
+                            const ZeroEnergySpring& spring) {
+  take_pressures(r, model);
+  // Takes the velocities' place in the records until the next step, when all have been strained.
+  const Particles& p = model.particles;
+  if (!controlled_[0].empty())
+    spread(r, controlled_, [&](std::size_t a) {
+      return Vec2(p.velocity[a] + spring.of(a, p) * (p.position[a] - r.points[a]));
+    });
+  behind_walls_.fill(r, piola_);
+  fill_ghost_fluxes(r, p.fill);
+}
+
+void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model) {
+  if (pressure_.empty()) return;
+  const Particles& p = model.particles;
+  const std::size_t n = p.size();
+  const auto write = [&](std::size_t i, double pressure) {
+    pressure_[i] = pressure;
+    if (r.listed[i]) records_[i].q[pressure_lane] = pressure;
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) write(a, p.pore_pressure[a]);
+  r.ghosts.for_each([&](std::size_t i) {
+    const std::size_t parent = r.ghosts.parent(i);
+    const Vec2& from = parent < n ? p.position[parent] : ghost_positions_[parent - n];
+    const Vec2 here = ghost_positions_[i] = r.ghosts.wall(i).mirrored(from);
+    write(n + i, model.water.pore_pressure_behind_wall(p.position[r.ghosts.root(i)], here));
+  });
+}
+
+void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills) {
+  const std::size_t n = r.particles();
+  r.ghosts.for_each([&](std::size_t i) {
+    const std::size_t parent = r.ghosts.parent(i);
+    const double fill = fills[r.ghosts.root(i)];
+    const Mat2 control = flux_[parent] - fill * matrix(piola_[parent]) * r.correction[parent];
+    const Mat2 flux = fill * matrix(piola_[n + i]) * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
+    flux_.set(n + i, flux);
+    if (!r.listed[n + i]) return;
+    Lanes& q = records_[n + i].q;
+    for (int k = 0; k < 4; ++k) q[k] = flux_.component[k][n + i];
+  });
+}
+
+void Fluxes::connect(ConsistentArrays& c, const ReferenceConfiguration& r) {
+  for (int k = 0; k < 2; ++k) {
+    c.motion.velocity[k] = velocity_[k].data();
+    c.motion.controlled[k] = (controlled_[0].empty() ? velocity_ : controlled_)[k].data();
+  }
+  c.motion.pressure = pressure_.empty() ? nullptr : pressure_.data();
+  deformation_.connect(c.state.deformation);
+  flux_.connect(c.fluxes.flux);
+  c.fluxes.listed = r.listed.data();
+  c.fluxes.records = records_.data();
+  c.fluxes.mirrored = mirrored_.data();
+  c.fluxes.piola = piola_.data()->data();
+}
+
+void Fluxes::visit(StateArchive& state, const ReferenceConfiguration& r) {
+  const std::size_t n = r.particles();
+  for (auto& component : deformation_.component) state.array("deformation", component);
+  for (auto& component : flux_.component) state.array("flux", std::span(component).first(n));
+  state.array("piola", std::span(piola_).first(n));
+  if (!state.restoring()) return;
+  for (std::size_t a = 0; a < n; ++a)
+    if (r.listed[a])
+      for (int k = 0; k < 4; ++k) records_[a].q[k] = flux_.component[k][a];
+}
+
+}  // namespace porosph

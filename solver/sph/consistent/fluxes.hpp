@@ -1,0 +1,55 @@
+// What the consistent form computes with since its reference: deformation, fluxes, and what the sums read of
+// particles and ghosts.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/particles/state.hpp"
+#include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/consistent/stress_behind_walls.hpp"
+#include "solver/sph/consistent/zero_energy_spring.hpp"
+#include "solver/sph/kernels/record.hpp"
+
+namespace porosph {
+
+/// Arrays are of the particles, then the ghosts, where no other is said.
+class Fluxes {
+ public:
+  Fluxes() = default;
+  /// Undeformed. `elastic_control`: the zero-energy control acts on displacements as well.
+  Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control);
+
+  /// The particles' velocities, and the ghosts'.
+  void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
+  /// What the next forces need beside the flux of the particles: pore pressure, v + k * displacement for the
+  /// zero-energy control, and the ghosts' P and flux.
+  void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
+                      const ZeroEnergySpring& spring);
+
+  Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
+
+  void connect(ConsistentArrays& arrays, const ReferenceConfiguration& reference);
+  /// Saves or restores what the next step needs; ghosts have theirs made when they are needed.
+  void visit(StateArchive& state, const ReferenceConfiguration& reference);
+
+ private:
+  template <class Of>
+  void spread(const ReferenceConfiguration& reference, std::array<std::vector<double>, 2>& field,
+              Of&& of_particle);
+  void take_pressures(const ReferenceConfiguration& reference, const Model& model);
+  void fill_ghost_fluxes(const ReferenceConfiguration& reference, const std::vector<double>& fill);
+
+  PlaneTensors deformation_;                       ///< F, of the particles
+  PlaneTensors flux_;                              ///< fill P L - mu (dF/dt + rate (F - I)) [Pa]
+  std::vector<double> pressure_;                   ///< p_w [Pa]; empty in dry soil
+  std::array<std::vector<double>, 2> velocity_;    ///< [m/s]
+  std::array<std::vector<double>, 2> controlled_;  ///< v + rate * displacement [m/s]; empty without
+  std::vector<Record> records_;                    ///< flux, p_w and velocity of those that are listed
+  std::vector<std::uint8_t> mirrored_;             ///< of the particles: their P is asked for
+  std::vector<PlaneTensor> piola_;                 ///< P of those, and of the ghosts [Pa]
+  std::vector<Vec2> ghost_positions_;              ///< where the ghosts are now [m]
+  StressBehindWalls behind_walls_;
+};
+
+}  // namespace porosph

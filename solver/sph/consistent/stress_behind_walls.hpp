@@ -1,0 +1,43 @@
+// The stress behind walls that bear weight, which continues linearly from the soil in front of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/sph/consistent/reference.hpp"
+
+namespace porosph {
+
+/// Extrapolates the first Piola-Kirchhoff stress P from particles next to bearing walls, with gradients that
+/// see only the soil and its mirror images at other walls. A roller carries no shear.
+class StressBehindWalls {
+ public:
+  StressBehindWalls() = default;
+  StressBehindWalls(const ReferenceConfiguration& reference, std::span<const Wall> walls);
+
+  /// Fills P of the ghosts: mirrored, or extrapolated where the wall bears weight. `piola`: particles, then
+  /// ghosts; of the particles, those that uses() names are read.
+  void fill(const ReferenceConfiguration& reference, std::vector<PlaneTensor>& piola);
+
+  /// Marks the particles whose P is asked for.
+  void mark_used(const ReferenceConfiguration& reference, std::vector<std::uint8_t>& used) const;
+
+ private:
+  struct OneSided {
+    std::int32_t particle;
+    std::vector<std::int32_t> neighbours;
+    std::vector<Vec2> gradient;  ///< exact for linear fields without the extrapolated ghosts
+  };
+  OneSided one_sided(const ReferenceConfiguration& reference, std::int32_t particle,
+                     const std::vector<std::uint8_t>& stems_from_extrapolated) const;
+  void sum_gradients(const std::vector<PlaneTensor>& piola);
+  Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t ghost,
+                    const std::vector<PlaneTensor>& piola) const;
+
+  std::size_t extrapolated_ = 0;  ///< ghosts of bearing walls, which come first
+  std::vector<OneSided> stencils_;
+  std::vector<std::int32_t> stencil_of_;        ///< of each extrapolated ghost
+  std::vector<std::array<Mat2, 2>> gradients_;  ///< of P along x and y, of each stencil
+};
+
+}  // namespace porosph

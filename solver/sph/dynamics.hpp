@@ -1,0 +1,51 @@
+// What every form of the motion equation offers to the integrator.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "solver/case/case.hpp"
+#include "solver/model/model.hpp"
+#include "solver/particles/state.hpp"
+
+namespace porosph {
+
+/// Spatial discretisation: from the model's state to accelerations and to strain. It refers to the model that
+/// it was made for, whose particle count must not change.
+class Dynamics {
+ public:
+  virtual ~Dynamics() = default;
+
+  /// Brings neighbours and kernel gradients up to date with the positions, where that is due.
+  virtual void prepare() = 0;
+
+  /// Accelerations, gravity included and damping left out, of the present state; one per particle [m/s2].
+  /// prepare() must have been called for this state.
+  virtual void accelerations(std::span<Vec2> out) = 0;
+
+  /// Gradients dv_i/dx_j of the present velocities at the positions of the last prepare() [1/s].
+  virtual void velocity_gradients(std::span<Mat2> out) = 0;
+
+  /// Carries effective stress and density over a step dt [s], in which the particles moved with their present
+  /// velocities from where the last prepare() saw them.
+  virtual void strain(double dt) = 0;
+
+  /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
+  /// saving. Lists and gradients are made anew by the code that made them first. Throws StateError.
+  virtual void visit(StateArchive& state) = 0;
+
+  /// How often neighbours were searched, kernel gradients made, and of these closed for disorder.
+  struct Counts {
+    std::int64_t searches = 0, refreshes = 0, closures = 0;
+  };
+  Counts counts;
+};
+
+/// The dynamics that the case asks for.
+std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);
+
+/// What makes the dynamics of a simulation.
+using DynamicsMaker = std::function<std::unique_ptr<Dynamics>(const FormulationCase&, Model&)>;
+
+}  // namespace porosph
