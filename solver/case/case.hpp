@@ -86,8 +86,9 @@ struct FormulationCase {
   double artificial_stress = 0;           ///< epsilon of the artificial stress [-]; 0 is off
   double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
   double zero_energy_control = 0;     ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
-  double zero_energy_stiffness = -1;  ///< elastic part of that control: it acts on v + this * c_p / h * u
-                                      ///< [-]; negative: 0, and 0.1 where gradients had to be closed
+  double zero_energy_stiffness = -1;  ///< elastic part of that control, in terms of kappa M of the softest
+                                      ///< soil in reach [-]; negative: 0, but 0.1 where soils of different
+                                      ///< stiffness meet, outlines cut cells or gradients had to be closed
   double refresh_strain =
       0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
   bool closed_gradients = true;   ///< a uniform stress is in balance also in disorder

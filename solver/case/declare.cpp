@@ -219,11 +219,13 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
-  f.number(key_of_consistent("zero_energy_stiffness",
-                             "Elastic part of that control: it acts on v + zero_energy_stiffness * c_p / h * "
-                             "u, u the displacement since kernel gradients were built; 0: viscous only.")
-               .otherwise("0, but 0.1 where gradients had to be closed"),
-           c.zero_energy_stiffness, between(0, 10));
+  f.number(
+      key_of_consistent("zero_energy_stiffness",
+                        "Elastic part of that control: a spring of this times the control's strength "
+                        "times the constrained modulus of the softest soil in reach; 0: viscous only.")
+          .otherwise("0, but 0.1 where soils of different stiffness meet, outlines cut cells or gradients "
+                     "had to be closed"),
+      c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),

@@ -56,7 +56,7 @@ struct Summary {
   double unbalanced_force_ratio = 0;
   double energy_growth =
       0;  ///< total energy gained since the start over what moves and strains at the end [-]
-  /// Displacements that alternate from particle to particle: see monitor/zigzag.hpp.
+  /// Displacements that alternate from particle to particle: see run/monitor/zigzag.hpp.
   struct Zigzag {
     double rms = 0, quantile = 0;  ///< over the difference of neighbours [-]
     double largest = 0;            ///< [m]

@@ -111,7 +111,7 @@ FormulationCase paper_formulation() {
 
 FormulationCase consistent_formulation() {
   FormulationCase f;
-  f.closed_gradients = false;  // they are solved for: see the tests of solver/motion
+  f.closed_gradients = false;  // they are solved for: see the tests of solver/sph
   f.kernel_correction = GENERATE(true, false);
   f.zero_energy_control = GENERATE(0, 0.05);
   f.bulk_viscosity = GENERATE(0, 0.06);
