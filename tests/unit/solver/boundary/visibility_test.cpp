@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/case/case_file.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/sph/dynamics.hpp"
 #include "tests/box_of_soil.hpp"
