@@ -1,34 +1,38 @@
 #include "solver/sph/consistent/zero_energy_spring.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace porosph {
 namespace {
 
-/// Cells of unequal size, as an outline cuts them, do not close the sums of their gradients.
-bool cells_are_cut(const ReferenceConfiguration& r) {
-  const auto [least, most] = std::minmax_element(r.volume.begin(), r.volume.begin() + std::ssize(r.density));
-  return *least < 0.99 * *most;
-}
-
 /// s, by default where something sets off motion that alternates: soils that meet, cut cells, disorder.
-double strength(const FormulationCase& formulation, const ReferenceConfiguration& r, const OwnSides& sides) {
+double strength(const FormulationCase& formulation, bool cut, const ReferenceConfiguration& r,
+                const OwnSides& sides) {
   constexpr double usual = 0.1;  // by the map cases/stability/disorder.toml
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
-  return r.closed() || !sides.empty() || cells_are_cut(r) ? usual : 0;
+  return r.closed() || !sides.empty() || cut ? usual : 0;
 }
 
 }  // namespace
 
-ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Model& model,
-                                   const ReferenceConfiguration& r, const OwnSides& sides)
+bool cells_are_cut(const Particles& p) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const double whole = p.volume(a) / p.fill[a];
+    least = std::min(least, whole), most = std::max(most, whole);
+  }
+  return least < 0.99 * most;
+}
+
+ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Model& model, double rho_c,
+                                   bool cut, const ReferenceConfiguration& r, const OwnSides& sides)
     : place_(sides.place) {
   const Particles& p = model.particles;
-  const double s = strength(formulation, r, sides);
+  const double s = strength(formulation, cut, r, sides);
   active_ = s > 0 && formulation.zero_energy_control > 0;
-  const double lightest = *std::min_element(p.density.begin(), p.density.end());
   // mu = kappa rho c_p h
-  const double rate_per_modulus = s / (lightest * model.wave_speed * model.smoothing_length);
+  const double rate_per_modulus = s / (rho_c * model.smoothing_length);
   for (const Soil& soil : model.soils)
     of_soil_.push_back(active_ ? rate_per_modulus * soil.constrained_modulus() : 0);
   const std::size_t n = r.particles();
@@ -54,6 +58,14 @@ void ZeroEnergySpring::find_unequal_pairs(const ReferenceConfiguration& r, const
     if (pairs_.size() > before) first_pair_.push_back(before);
   }
   first_pair_.push_back(pairs_.size());
+}
+
+void ZeroEnergySpring::visit(StateArchive& state, std::size_t particles) {
+  bool slips = !slip_.empty();
+  state.value("spring_slips", slips);
+  if (!slips) return;
+  slip_.resize(particles, Vec2::Zero());
+  state.array("spring_slip", slip_);
 }
 
 }  // namespace porosph
