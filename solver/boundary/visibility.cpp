@@ -75,7 +75,7 @@ Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall>
         edges_.push_back({a, b, wall});
       }
   }
-  everywhere_ = !anything_is_hidden(walls, particles);
+  find_hidden(walls, particles);
 }
 
 /// Inside or on an outline.
@@ -96,8 +96,9 @@ Visibility::Exit Visibility::exit(const Vec2& from, const Vec2& to) const {
   Exit found;
   double left = never;
   for (const auto& [t, edge] : crossed) {
-    const bool soil_beyond = t + step >= 1 || in_soil(from + (t + step) * way);
-    if (left == never && soil_beyond && t + step < 1) continue;
+    if (t + step >= 1) break;  // that is where the line ends: on an outline
+    const bool soil_beyond = in_soil(from + (t + step) * way);
+    if (left == never && soil_beyond) continue;
     if (left == never) left = t;
     if (t < left + step)
       found.out.push_back(edge);
@@ -165,28 +166,30 @@ bool Visibility::sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& gho
 }
 
 /// Of the particles at the start.
-bool Visibility::anything_is_hidden(std::span<const Wall> walls, const Particles& p) const {
-  const auto near_edge = [&](std::size_t a) {
-    return std::any_of(edges_.begin(), edges_.end(),
-                       [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < range_; });
-  };
+void Visibility::find_hidden(std::span<const Wall> walls, const Particles& p) {
+  const auto n = static_cast<std::int32_t>(p.size());
   std::vector<std::uint8_t> near(p.size());
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < p.size(); ++a) near[a] = near_edge(a);
-  const auto n = static_cast<std::int32_t>(p.size());
+  for (std::int32_t a = 0; a < n; ++a)
+    near[a] = std::any_of(edges_.begin(), edges_.end(),
+                          [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < range_; });
   std::vector<Vec2> points = p.start;
   const Ghosts ghosts(walls, 0, walls.size(), range_, points);
   const NeighbourList all = find_neighbours(points, p.size(), range_);
-  Visibility open = *this;
-  open.everywhere_ = false;
-  bool hidden = false;
-#pragma omp parallel for schedule(dynamic, 256) reduction(|| : hidden)
+  everywhere_ = false;  // so that they are looked at
+  bool soil = false, ghost = false;
+#pragma omp parallel for schedule(dynamic, 256) reduction(|| : soil, ghost)
   for (std::int32_t a = 0; a < n; ++a) {
     if (!near[a]) continue;
-    for (const std::int32_t b : all.of(a))
-      hidden = hidden || !(b < n ? !near[b] || open.sees(a, b, p) : open.sees_ghost(a, b - n, ghosts, p));
+    for (const std::int32_t b : all.of(a)) {
+      if (b >= n)
+        ghost = ghost || !sees_ghost(a, b - n, ghosts, p);
+      else
+        soil = soil || (near[b] && !sees(a, b, p));
+    }
   }
-  return hidden;
+  everywhere_ = !soil && !ghost;
+  ghosts_everywhere_ = !ghost;
 }
 
 }  // namespace porosph

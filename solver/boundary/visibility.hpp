@@ -26,6 +26,8 @@ class Visibility {
 
   /// In most scenes nothing is hidden from anything within the kernel's range.
   bool everywhere() const { return everywhere_; }
+  /// No ghost is hidden; soil may be, past slits and gaps.
+  bool ghosts_everywhere() const { return ghosts_everywhere_; }
 
   /// Whether particle a sees particle b.
   bool sees(std::int32_t a, std::int32_t b, const Particles& particles) const;
@@ -49,12 +51,12 @@ class Visibility {
   bool hides(const Exit& exit) const;
   bool is_image_in_one_wall(const Vec2& start, std::size_t ghost, const Ghosts& ghosts) const;
   bool in_soil(const Vec2& p) const;
-  bool anything_is_hidden(std::span<const Wall> walls, const Particles& particles) const;
+  void find_hidden(std::span<const Wall> walls, const Particles& particles);
 
   std::vector<Edge> edges_;
   std::vector<std::vector<Polygon>> rings_;  ///< of each soil: outline, then holes
   double range_ = 0, spacing_ = 0;
-  bool everywhere_ = true;
+  bool everywhere_ = true, ghosts_everywhere_ = true;
 };
 
 }  // namespace porosph
