@@ -159,7 +159,8 @@ void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
 /// By value: std::max keeps the loop from becoming vector code.
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// The arrays of a tile, each from the tile's first particle on, and what a step does with them.
+/// The arrays of a tile, each from the tile's first particle on, and what a step does with them. All of it
+/// must be inlined, or the loops over particles do not become vector code.
 struct TileStep {
   TileStep(const ConsistentArrays& c, const TileRange& tile, const Row* rates, Row* piola_rows, double step)
       : particle(tile.first),
@@ -183,16 +184,16 @@ struct TileStep {
   }
 
   /// Velocity gradient at the middle of the step.
-  Gradient gradient(std::int32_t i) const {
+  [[gnu::always_inline]] Gradient gradient(std::int32_t i) const {
     const double rxx = rate[xx][i], rxy = rate[xy][i], ryx = rate[yx][i], ryy = rate[yy][i];
     return mid_step_gradient({rxx, rxy, ryx, ryy},
                              {deformation[xx][i] + half * rxx, deformation[xy][i] + half * rxy,
                               deformation[yx][i] + half * ryx, deformation[yy][i] + half * ryy});
   }
-  Stress old_stress(std::int32_t i) const {
+  [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
     return {stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]};
   }
-  void store_stress(std::int32_t i, const Stress& s) const {
+  [[gnu::always_inline]] void store_stress(std::int32_t i, const Stress& s) const {
     stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
   }
 
@@ -200,7 +201,7 @@ struct TileStep {
   struct Deformed {
     double xx, xy, yx, yy, density;
   };
-  Deformed deform(std::int32_t i, double& strain, double& speed_squared) const {
+  [[gnu::always_inline]] Deformed deform(std::int32_t i, double& strain, double& speed_squared) const {
     const double fxx = deformation[xx][i] + dt * rate[xx][i], fxy = deformation[xy][i] + dt * rate[xy][i];
     const double fyx = deformation[yx][i] + dt * rate[yx][i], fyy = deformation[yy][i] + dt * rate[yy][i];
     deformation[xx][i] = fxx, deformation[xy][i] = fxy, deformation[yx][i] = fyx, deformation[yy][i] = fyy;
@@ -213,14 +214,14 @@ struct TileStep {
   }
 
   /// dF/dt + k (F - I), which the zero-energy control acts on.
-  Gradient controlled(std::int32_t i, const Deformed& f, double k) const {
+  [[gnu::always_inline]] Gradient controlled(std::int32_t i, const Deformed& f, double k) const {
     return {rate[xx][i] + k * (f.xx - 1), rate[xy][i] + k * f.xy, rate[yx][i] + k * f.yx,
             rate[yy][i] + k * (f.yy - 1)};
   }
 
   /// P, and the flux fill P L less the zero-energy control, of the stress `s`.
-  void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus, double dilatation,
-                  const Gradient& control) const {
+  [[gnu::always_inline]] void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus,
+                                         double dilatation, const Gradient& control) const {
     const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * f.density), dilatation);
     const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
     const double pxx = txx * f.yy - s.xy * f.xy, pxy = s.xy * f.xx - txx * f.yx;
@@ -243,7 +244,7 @@ struct TileStep {
 };
 
 /// 1 where the law's stress is not that of an elastic step, or else 0.
-inline double departs(const Stress& s, const Stress& elastic) {
+[[gnu::always_inline]] inline double departs(const Stress& s, const Stress& elastic) {
   const double off = std::abs(s.xx - elastic.xx) + std::abs(s.yy - elastic.yy) + std::abs(s.xy - elastic.xy);
   return off > 1e-9 * (std::abs(elastic.xx) + std::abs(elastic.yy) + std::abs(elastic.xy)) ? 1 : 0;
 }
@@ -284,21 +285,22 @@ struct OwnSideStep {
   }
 
   /// A : m for the particle j of this stretch.
-  Gradient own(std::int32_t j, double mxx, double mxy, double myx, double myy) const {
+  [[gnu::always_inline]] Gradient own(std::int32_t j, double mxx, double mxy, double myx, double myy) const {
     return {a[0][j] * mxx + a[1][j] * mxy + a[2][j] * myx + a[3][j] * myy,
             a[4][j] * mxx + a[5][j] * mxy + a[6][j] * myx + a[7][j] * myy,
             a[8][j] * mxx + a[9][j] * mxy + a[10][j] * myx + a[11][j] * myy,
             a[12][j] * mxx + a[13][j] * mxy + a[14][j] * myx + a[15][j] * myy};
   }
   /// The own side's strain rate with the rotation of the sum.
-  Gradient gradient(std::int32_t j, const Gradient& summed) const {
+  [[gnu::always_inline]] Gradient gradient(std::int32_t j, const Gradient& summed) const {
     const Gradient g = own(j, summed.xx, summed.xy, summed.yx, summed.yy);
     const double shear = 0.5 * (g.xy + g.yx), spin = 0.5 * (summed.yx - summed.xy);
     return {g.xx, shear - spin, shear + spin, g.yy};
   }
   /// Carries tau over the step and adds tau t (x) t to the stress. Soil that yields does not hold it: half of
   /// it goes in each step.
-  Stress tied(std::int32_t j, const Stress& s, const Gradient& g, double dt, double yields) const {
+  [[gnu::always_inline]] Stress tied(std::int32_t j, const Stress& s, const Gradient& g, double dt,
+                                     double yields) const {
     const double grown = dt * (tie[0][j] * g.xx + tie[1][j] * g.xy + tie[2][j] * g.yx + tie[3][j] * g.yy);
     const double tau = (1 - 0.5 * yields) * interface_stress[j] + (1 - yields) * grown;
     interface_stress[j] = tau;
@@ -306,7 +308,8 @@ struct OwnSideStep {
     return {s.xx + tau * x * x, s.yy + tau * y * y, s.zz, s.xy + tau * x * y};
   }
   /// What the zero-energy control acts on at particle i of the tile.
-  Gradient controlled(const TileStep& t, std::int32_t i, std::int32_t j, const TileStep::Deformed& f) const {
+  [[gnu::always_inline]] Gradient controlled(const TileStep& t, std::int32_t i, std::int32_t j,
+                                             const TileStep::Deformed& f) const {
     const Gradient c = t.controlled(i, f, elastic[j]);
     return own(j, c.xx, c.xy, c.yx, c.yy);
   }
