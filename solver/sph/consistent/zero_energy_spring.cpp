@@ -1,6 +1,7 @@
 #include "solver/sph/consistent/zero_energy_spring.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace porosph {
@@ -47,17 +48,54 @@ ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Mod
   if (active_ && !sides.empty()) find_unequal_pairs(r, p);
 }
 
+/// With k of each particle, a pair's force on a is 2 w (k_b u_b - k_a u_a) - (k_a S_a + k_b S_b) G. With the
+/// smaller of them for both, it lacks the part of the stiffer one's k that is beyond the softer one's.
 void ZeroEnergySpring::find_unequal_pairs(const ReferenceConfiguration& r, const Particles& p) {
   const auto n = static_cast<std::int32_t>(r.particles());
+  std::vector<std::int32_t> place(r.points.size(), -1);
+  const auto place_of = [&](std::int32_t b) {
+    if (place[b] < 0) {
+      place[b] = static_cast<std::int32_t>(stiffer_.size());
+      stiffer_.push_back(b < n ? Stiffer{b, -1} : Stiffer{r.ghosts.root(b - n), b - n});
+    }
+    return place[b];
+  };
   for (std::int32_t a = 0; a < n; ++a) {
-    const std::size_t before = pairs_.size();
+    const double own = of(a, p);
+    const std::size_t first = excess_.size();
+    Excess of_own{-1, 0, Vec2::Zero()};
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const std::int32_t root = b < n ? b : r.ghosts.root(b - n);
-      if (of(root, p) != of(a, p)) pairs_.push_back({a, root, b < n ? -1 : b - n, g});
+      const double other = of(b < n ? b : r.ghosts.root(b - n), p), excess = std::abs(other - own);
+      if (other > own) {
+        excess_.push_back({place_of(b), 2 * g.w * excess, excess * Vec2(g.x, g.y)});
+      } else if (other < own) {
+        of_own.motion -= 2 * g.w * excess, of_own.gradient += excess * Vec2(g.x, g.y);
+      }
     });
-    if (pairs_.size() > before) first_pair_.push_back(before);
+    if (of_own.motion != 0) {
+      of_own.stiffer = place_of(a);
+      excess_.push_back(of_own);
+    }
+    if (excess_.size() > first) softened_.push_back({a, first});
   }
-  first_pair_.push_back(pairs_.size());
+  softened_.push_back({-1, excess_.size()});
+  strained_.resize(stiffer_.size());
+}
+
+void ZeroEnergySpring::add_softening(const ReferenceConfiguration& r, const Particles& p, double viscosity,
+                                     std::span<Vec2> accelerations) const {
+  const std::size_t count = softened_.empty() ? 0 : softened_.size() - 1;
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < count; ++k) {
+    Vec2 force = Vec2::Zero();
+    for (std::size_t m = softened_[k].first; m < softened_[k + 1].first; ++m) {
+      const Excess& e = excess_[m];
+      const Strained& s = strained_[e.stiffer];
+      force += s.gradient * e.gradient - e.motion * s.motion;
+    }
+    const std::int32_t a = softened_[k].particle;
+    accelerations[a] += viscosity / (p.fill[a] * r.density[a]) * force;
+  }
 }
 
 void ZeroEnergySpring::visit(StateArchive& state, std::size_t particles) {

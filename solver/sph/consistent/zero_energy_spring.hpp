@@ -50,22 +50,41 @@ class ZeroEnergySpring {
   /// `own_strain(a)` is F - I of a particle's own side, `viscosity` mu [Pa s].
   template <class OwnStrain>
   void soften_pairs(const ReferenceConfiguration& reference, const Particles& particles, double viscosity,
-                    OwnStrain&& own_strain, std::span<Vec2> accelerations) const;
+                    OwnStrain&& own_strain, std::span<Vec2> accelerations);
 
  private:
-  struct UnequalPair {
-    std::int32_t a, b;   ///< b: a particle, or the root of a ghost
+  /// A particle, or the ghost that stems from it, that has a neighbour with a smaller k.
+  struct Stiffer {
+    std::int32_t particle;
     std::int32_t ghost;  ///< or -1
-    PairGeometry geometry;
+  };
+  struct Strained {
+    Vec2 motion;    ///< u - p [m]
+    Mat2 gradient;  ///< own side's F - I
+  };
+  /// What a pair's force is too large by, for the motion and the gradient of one of them: 2 w k and G k.
+  struct Excess {
+    std::int32_t stiffer;  ///< place in stiffer_
+    double motion;
+    Vec2 gradient;
+  };
+  /// All that acts on one particle.
+  struct Softened {
+    std::int32_t particle;
+    std::size_t first;  ///< in excess_, up to that of the next
   };
   void find_unequal_pairs(const ReferenceConfiguration& reference, const Particles& particles);
+  void add_softening(const ReferenceConfiguration& reference, const Particles& particles, double viscosity,
+                     std::span<Vec2> accelerations) const;
 
   bool active_ = false;
   std::vector<double> of_soil_, of_own_side_;
   std::vector<std::int32_t> place_;
-  std::vector<UnequalPair> pairs_;       ///< particle by particle
-  std::vector<std::size_t> first_pair_;  ///< of each such particle, and one past the last
-  std::vector<Vec2> slip_;               ///< p of each particle [m]; empty where none has yielded
+  std::vector<Stiffer> stiffer_;
+  std::vector<Strained> strained_;  ///< of each in stiffer_
+  std::vector<Softened> softened_;  ///< and one past the last
+  std::vector<Excess> excess_;
+  std::vector<Vec2> slip_;  ///< p of each particle [m]; empty where none has yielded
 };
 
 /// The outline cuts cells: cells of unequal size do not close the sums of their gradients.
@@ -105,32 +124,17 @@ void ZeroEnergySpring::slip(const ReferenceConfiguration& r, const Particles& p,
 
 template <class OwnStrain>
 void ZeroEnergySpring::soften_pairs(const ReferenceConfiguration& r, const Particles& p, double viscosity,
-                                    OwnStrain&& own_strain, std::span<Vec2> accelerations) const {
-  const auto moved = [&](std::int32_t a) { return stretch(a, r, p); };
-  const std::size_t count = first_pair_.empty() ? 0 : first_pair_.size() - 1;
+                                    OwnStrain&& own_strain, std::span<Vec2> accelerations) {
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t a = pairs_[first_pair_[k]].a;
-    const double own_rate = of(a, p);
-    const Vec2 own_motion = moved(a);
-    const Mat2 strain = own_strain(a);
-    Vec2 force = Vec2::Zero();
-    for (std::size_t m = first_pair_[k]; m < first_pair_[k + 1]; ++m) {
-      const UnequalPair& pair = pairs_[m];
-      Vec2 motion = moved(pair.b);
-      Mat2 other_strain = own_strain(pair.b);
-      if (pair.ghost >= 0) {
-        motion = r.ghosts.from_root<Mirrors::motion>(pair.ghost, motion);
-        other_strain = r.ghosts.flux_from_root(pair.ghost, other_strain);
-      }
-      const double other_rate = of(pair.b, p), smaller = std::min(own_rate, other_rate);
-      const double own = smaller - own_rate, other = smaller - other_rate;
-      const PairGeometry& g = pair.geometry;
-      force += 2 * g.w * (other * motion - own * own_motion) -
-               (own * strain + other * other_strain) * Vec2(g.x, g.y);
-    }
-    accelerations[a] += viscosity / (p.fill[a] * r.density[a]) * force;
+  for (std::size_t k = 0; k < stiffer_.size(); ++k) {
+    const auto [particle, ghost] = stiffer_[k];
+    const Vec2 motion = stretch(particle, r, p);
+    const Mat2 gradient = own_strain(particle);
+    strained_[k] = ghost < 0 ? Strained{motion, gradient}
+                             : Strained{r.ghosts.from_root<Mirrors::motion>(ghost, motion),
+                                        r.ghosts.flux_from_root(ghost, gradient)};
   }
+  add_softening(r, p, viscosity, accelerations);
 }
 
 }  // namespace porosph
