@@ -71,7 +71,7 @@ void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, s
   });
 }
 
-/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, made anew, so that what
+/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, summed again, so that what
 /// is constant still has no gradient.
 inline PairGeometry sum_of(const PairGeometry* g, std::int64_t first, std::int64_t) { return g[first]; }
 inline PairGeometry sum_of(const SinglePairGeometry* g, std::int64_t first, std::int64_t last) {
