@@ -31,7 +31,7 @@ PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, V
 void PaperDynamics::make_virtual_particles() {
   const auto& walls = model_.walls;
   fixed_walls_ =
-      std::count_if(walls.begin(), walls.end(), [](const Wall& w) { return w.kind == BoundaryKind::fixed; });
+      std::count_if(walls.begin(), walls.end(), [](const Wall& w) { return w.support().carries_shear(); });
   const std::size_t n = model_.particles.size();
   std::vector<Vec2> points = model_.particles.position;
   std::vector<Image> images;
@@ -50,7 +50,7 @@ void PaperDynamics::make_virtual_particles() {
     virtual_volume_.push_back(parent < n ? model_.particles.volume(parent) : virtual_volume_[parent - n]);
     virtual_wall_.push_back(i < in_fixed ? images[i].wall : virtual_wall_[parent - n]);
     virtual_pressure_.push_back(
-        model_.water.pore_pressure_behind_wall(model_.particles.position[root[i]], virtuals[i]));
+        model_.water.pore_pressure(model_.particles.position[root[i]].x(), virtuals[i].y()));
   }
 }
 
@@ -233,10 +233,7 @@ void PaperDynamics::fill_stress() {
   ghosts_.fill<Mirrors::tensor>(
       [&](std::size_t k) { return (Mat2() << xx[k], xy[k], xy[k], yy[k]).finished(); },
       [&](std::size_t k, const Mat2& s) { xx[k] = s(0, 0), yy[k] = s(1, 1), xy[k] = s(0, 1); });
-  ghosts_.for_each([&](std::size_t i) {
-    const std::size_t ghost = p.size() + i;
-    pressure[ghost] = model_.water.pore_pressure_behind_wall(p.position[ghosts_.root(i)], points_[ghost]);
-  });
+  model_.pore_water->fill_ghosts(model_.water, p, ghosts_, std::span(points_).subspan(p.size()), pressure_);
   if (per_density) return;
 #pragma omp parallel for simd schedule(static)
   for (std::size_t i = 0; i < points_.size(); ++i) xx[i] += pressure[i], yy[i] += pressure[i];
