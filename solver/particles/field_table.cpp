@@ -50,7 +50,7 @@ const std::vector<Field>& field_table() {
         displacement,     velocity,    effective_stress,  total_stress,     pore_pressure,
         density,          mass,        smoothing_length,  soil_id,          particle_id,
         principal_stress, mean_stress, deviatoric_stress, von_mises_stress, strain,
-        excess_stress};
+        excess_stress,    yielding,    mobilised_friction};
     add_history(all, Laws{});
     return all;
   }();
