@@ -64,7 +64,8 @@ struct WaterCase {
   std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
   WaterMode mode = WaterMode::still;
   std::vector<HydraulicFaceCase> faces;  ///< of water that flows; of those that overlap the last one holds
-  bool present() const { return !stretches.empty(); }
+  bool present() const { return !stretches.empty(); }  ///< it stands under a level
+  bool flows() const { return mode != WaterMode::still; }
 };
 
 enum class BoundaryKind {
