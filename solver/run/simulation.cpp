@@ -101,7 +101,7 @@ std::span<const Vec2> Simulation::accelerations() {
   if (!accelerations_valid_) {
     dynamics_->prepare();
     dynamics_->accelerations(accelerations_);
-    add_water_pressure(model_.water_faces, model_.water, model_.particles, accelerations_);
+    add_loads(model_.loads, model_.particles, time(), accelerations_);
     accelerations_valid_ = true;
   }
   return accelerations_;
@@ -126,6 +126,7 @@ void Simulation::advance() {
   ++step_;
   if (instability_) return;
   dynamics_->strain(dt_);
+  model_.pore_water->flow(model_.water, model_.particles, dt_);
   if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
 }
 
@@ -133,7 +134,7 @@ void Simulation::advance() {
 void Simulation::drift() {
   Particles& p = model_.particles;
   const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
-  const bool wet = model_.water.present();
+  const bool wet = model_.pore_water->acts(model_.water);
   const double then = static_cast<double>(step_ + 1) * dt_;
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
@@ -142,7 +143,7 @@ void Simulation::drift() {
   {
     const auto [first, last] = thread_range(p.size());
     runaways = move_particles(first, last, kick, dt_, limit, p, accelerations_);
-    if (wet) model_.water.pore_pressures(p, first, last);
+    if (wet) model_.pore_water->follow(model_.water, p, first, last);
   }
   runaway_ = runaways > 0;
   if (runaway_) name_breakdown(then);
@@ -162,6 +163,7 @@ void Simulation::visit(StateArchive& state) {
   state.value("relaxation_inertia", relaxation_.inertia);
   state.value("relaxation_damping", relaxation_.damping);
   dynamics_->visit(state);
+  model_.pore_water->visit(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;
