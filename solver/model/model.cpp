@@ -11,6 +11,7 @@
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
 #include "solver/model/initial_velocity.hpp"
+#include "solver/water/steady_water.hpp"
 #include "solver/water/still_water.hpp"
 
 namespace porosph {
@@ -75,6 +76,11 @@ Model build_model(const Case& case_as_drawn) {
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
+  if (scene.water.flows()) {
+    const auto water = std::make_shared<SteadyWater>(scene, model.particles);
+    water->wet(scene, model.particles);
+    model.pore_water = water;
+  }
   model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
