@@ -56,6 +56,7 @@ void declare(Fields&, SoilCase&);
 void declare(Fields&, WaterCase&);
 void declare(Fields&, WaterStretch&);
 void declare(Fields&, BoundaryCase&);
+void declare(Fields&, LoadCase&);
 void declare(Fields&, FormulationCase&);
 void declare(Fields&, LoadingCase&);
 void declare(Fields&, TimeCase&);
