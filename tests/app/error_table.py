@@ -112,6 +112,12 @@ ON_THE_COMMAND_LINE = [
     ("finite elements into that folder", "fem case.toml --out other", {}),
     ("finite elements that no memory holds", "fem case.toml --out fine --edge 1e-4", {}),
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
+    ("a factor of safety without strength", "safety case.toml", {}),
+    ("a factor of safety of level ground", "safety level.toml --method limit-equilibrium", {
+        "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')}),
+    ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
+    ("a method that is not there", "safety case.toml --method bishop", {}),
+    ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
 ]
