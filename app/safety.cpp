@@ -100,6 +100,17 @@ void check_soils(const Case& scene) {
       "\"tresca\"");
 }
 
+/// Limit equilibrium takes pore pressure from a level; that of flow it does not know.
+void check_water(const Case& scene, const Options& o) {
+  if (!scene.water.flows()) return;
+  if (!o.by_particles())
+    throw UsageError(
+        "safety: limit equilibrium is for still water, but water.mode is \"steady\"; "
+        "--method strength-reduction takes the water that flows");
+  if (o.by_limit_equilibrium() && !o.quiet)
+    say(stdout, "note: limit equilibrium is for still water and is left out\n");
+}
+
 void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {
   const Stopwatch watch;
   answer.limit_equilibrium = limit_equilibrium::find_critical_surfaces(limit_equilibrium::section_of(scene));
@@ -166,6 +177,7 @@ int safety_command(const Arguments& arguments) {
   if (!o) return Exit::done;
   const Case scene = read_case(find_case(o->case_file), o->overrides);
   check_soils(scene);
+  check_water(scene, *o);
   const fs::path folder = o->folder.empty()
                               ? fs::path("results") / (fs::path(o->case_file).stem().string() + "_safety")
                               : fs::path(o->folder);
@@ -175,7 +187,7 @@ int safety_command(const Arguments& arguments) {
   if (!o->force) check_owner(folder, case_text, true);
   SafetyAnswer answer;
   answer.title = scene.title;
-  find_by_limit_equilibrium(scene, answer);
+  if (!scene.water.flows()) find_by_limit_equilibrium(scene, answer);
   if (!answer.limit_equilibrium && !o->by_particles())
     throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
   if (o->by_particles()) find_by_particles(scene, *o, answer);

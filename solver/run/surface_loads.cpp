@@ -11,6 +11,7 @@
 #include "solver/case/shapes.hpp"
 #include "solver/soil/linear_elastic.hpp"
 #include "solver/sph/dynamics.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 namespace {
@@ -22,6 +23,7 @@ std::vector<Vec2> accelerations_under(const Stress& stress, const FormulationCas
   Particles& p = model.particles;
   model.gravity = Vec2::Zero();
   model.water = StandingWater();
+  model.pore_water = std::make_shared<StillWater>();
   model.loads.clear();
   for (Soil& soil : model.soils) soil = Soil(LinearElastic{soil.elastic()});
   std::ranges::fill(p.velocity, Vec2::Zero());
