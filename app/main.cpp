@@ -20,6 +20,7 @@ const std::vector<Command> commands = {
     {"list", "name the cases that come with the program", list_command},
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
+    {"safety", "find the factor of safety of a case", safety_command},
     {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},

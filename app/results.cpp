@@ -55,11 +55,13 @@ void remove_results(const fs::path& folder) {
   }
 }
 
-/// Of runs and of finite elements.
+/// Of runs, of finite elements and of factors of safety.
 void remove_what_is_of_another(const fs::path& folder, const std::string& case_text) {
   if (!is_of_another(folder, case_text)) return;
   remove_results(folder);
-  for (const char* name : {"fem.vtu", "probes.csv"}) remove_file(folder / name);
+  for (const char* name : {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png",
+                           "mechanism.png", "slip_surfaces.csv", "slip_surfaces.vtp"})
+    remove_file(folder / name);
 }
 
 /// Takes the folder for this case, empty of a run's results. The case file comes last: what is in the folder

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "render/legend.hpp"
+
 namespace porosph {
 
 namespace {
@@ -248,6 +250,61 @@ void draw_probes(Canvas& canvas, const Plot& plot, const Scenery& scenery) {
   }
 }
 
+/// Arrows that end on the surface, in the direction of the force, as long as their share of the largest.
+void draw_load(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
+               const LoadCase& load) {
+  constexpr double longest = 26, spacing = 16, head = 5;
+  const Pixel from = plot.at(load.from.x(), load.from.y()), to = plot.at(load.to.x(), load.to.y());
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const Point way = load.to - load.from;
+  Point normal = Point(way.y(), -way.x()).normalized();
+  if (inside_soil(soils, (load.from + load.to) / 2 + 1e-3 * way.norm() * normal)) normal = -normal;
+  const auto force = [&](double t) -> Point {
+    return load.traction + t * (load.traction_to - load.traction) -
+           (load.pressure + t * (load.pressure_to - load.pressure)) * normal;
+  };
+  const double largest = std::max(force(0).norm(), force(1).norm());
+  const Pen pen{.colour = {170, 40, 20}, .width = 1.4};
+  const int count = std::max(2, static_cast<int>(length / spacing));
+  for (int i = 0; i <= count; ++i) {
+    const double t = static_cast<double>(i) / count;
+    const Point f = force(t);
+    if (!(f.norm() > 0.02 * largest)) continue;
+    const Point along = f.normalized(), aside(-along.y(), along.x());
+    const double size = longest * f.norm() / largest;
+    Pixel tip{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+    if (along.dot(normal) > 0) tip = {tip.x + size * along.x(), tip.y + size * along.y()};  // pulls
+    canvas.line({tip.x - size * along.x(), tip.y - size * along.y()}, tip, pen);
+    for (const double side : {-0.5, 0.5})
+      canvas.line(
+          {tip.x - head * (along.x() + side * aside.x()), tip.y - head * (along.y() + side * aside.y())}, tip,
+          pen);
+  }
+}
+
+std::vector<Pixel> pixels_of(const Plot& plot, const std::vector<Point>& points) {
+  std::vector<Pixel> pixels;
+  for (const Point& p : points) pixels.push_back(plot.at(p.x(), p.y()));
+  return pixels;
+}
+
+void draw_lines(Canvas& canvas, const Plot& plot, const Scenery& scenery) {
+  std::vector<LegendEntry> entries;
+  std::vector<std::vector<Pixel>> drawn;
+  for_each_ring(scenery.soils, [&](const Polygon& ring) {
+    if (!ring.empty()) drawn.push_back(closed(plot, ring));
+  });
+  for (const SceneryLine& line : scenery.lines) {
+    const Pen pen{.colour = line.colour, .width = 2.2};
+    drawn.push_back(pixels_of(plot, line.points));
+    canvas.line(drawn.back(), {.colour = white, .width = 4.4});
+    canvas.line(drawn.back(), pen);
+    entries.push_back({line.label, pen});
+  }
+  if (const auto place = free_corner(plot.box, legend_extent(entries), drawn); place && !entries.empty())
+    draw_legend(canvas, *place, entries);
+}
+
 }  // namespace
 
 bool inside_soil(const std::vector<SoilOutline>& soils, Point point) {
@@ -275,7 +332,9 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
     if (stretch.x_from < stretch.x_to) draw_water_level(canvas, plot, scenery.soils, stretch);
   }
   for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
+  for (const LoadCase& load : scenery.loads) draw_load(canvas, plot, scenery.soils, load);
   draw_probes(canvas, plot, scenery);
+  draw_lines(canvas, plot, scenery);
 }
 
 }  // namespace porosph

@@ -1,6 +1,7 @@
 // What stands around the particles in a contour picture: outlines, water, supports, probes.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/axes.hpp"
@@ -13,11 +14,20 @@ struct SoilOutline {
   std::vector<Polygon> holes;
 };
 
+/// A line through the soil, such as a slip surface.
+struct SceneryLine {
+  std::vector<Point> points;  ///< [m]
+  std::string label;          ///< in the legend
+  Colour colour;
+};
+
 struct Scenery {
   std::vector<SoilOutline> soils;        ///< [m]
   std::vector<WaterStretch> water;       ///< [m]
   std::vector<BoundaryCase> boundaries;  ///< [m]
   std::vector<ProbeCase> probes;         ///< [m]
+  std::vector<LoadCase> loads = {};      ///< as at the end of the case
+  std::vector<SceneryLine> lines = {};
 };
 
 struct Interval {
@@ -34,8 +44,9 @@ std::vector<Interval> free_intervals(const std::vector<SoilOutline>& soils, doub
 
 bool inside_soil(const std::vector<SoilOutline>& soils, Point point);
 
-/// Soil outlines, water level with its triangle, supports on the side away from the soil, probes. Lines only:
-/// water is filled beneath the particles. Water is drawn from `x_from` to `x_to` at most.
+/// Soil outlines, water level with its triangle, supports on the side away from the soil, loads, probes, further
+/// lines with a legend where it hides none of them. Lines only: water is filled beneath the particles. Water
+/// is drawn from `x_from` to `x_to` at most.
 void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to);
 
 }  // namespace porosph

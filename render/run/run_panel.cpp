@@ -65,6 +65,7 @@ Case scene_at(Case scene, double time) {
 Scenery scenery_of(const Case& scene) {
   Scenery scenery{
       .soils = {}, .water = scene.water.stretches, .boundaries = scene.boundaries, .probes = scene.probes};
+  scenery.loads = scene.loads;
   for (const SoilCase& soil : scene.soils) scenery.soils.push_back({soil.polygon, soil.holes});
   return scenery;
 }

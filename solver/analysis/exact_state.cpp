@@ -4,7 +4,7 @@
 #include "solver/reference/exact/conventional_column.hpp"
 #include "solver/reference/exact/finite_strain_column.hpp"
 #include "solver/run/reference_errors.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 

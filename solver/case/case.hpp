@@ -105,6 +105,15 @@ struct BoundaryCase {
   Point from = Point::Zero(), to = Point::Zero();  ///< straight segment; soil on one side of it [m]
 };
 
+/// Traction on a straight free stretch of the outline as it is at the start: total stress on the soil.
+struct LoadCase {
+  std::string name;
+  Point from = Point::Zero(), to = Point::Zero();  ///< ends of the stretch [m]
+  double pressure = 0, pressure_to = 0;            ///< into the soil, at `from` and `to`, linear between [Pa]
+  Point traction = Point::Zero(), traction_to = Point::Zero();  ///< further force per area there [Pa]
+  std::vector<Point> over_time;  ///< (time, factor of all this), linear between; empty: 1 [s, -]
+};
+
 /// The momentum equation's discrete form.
 enum class Motion {
   conventional,  ///< eq. (17): pore pressure summed as p_a + p_b
@@ -192,6 +201,7 @@ struct Case {
   std::vector<SoilCase> soils;
   WaterCase water;
   std::vector<BoundaryCase> boundaries;
+  std::vector<LoadCase> loads;
   FormulationCase formulation;
   LoadingCase loading;
   TimeCase time;

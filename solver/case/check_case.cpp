@@ -7,6 +7,7 @@
 
 #include "solver/case/check_boundaries.hpp"
 #include "solver/case/check_flow.hpp"
+#include "solver/case/check_loads.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
@@ -218,6 +219,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   Issues issues;
   check_names(c.soils, "soil", issues);
   check_names(c.probes, "probe", issues);
+  check_names(c.loads, "load", issues);
   const double frames = c.output.interval > 0 ? c.time.end / c.output.interval : 0;
   if (frames > most_frames)
     issues.push_back(
@@ -255,6 +257,8 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
+  const Issues of_loads = check_loads(c);
+  issues.insert(issues.end(), of_loads.begin(), of_loads.end());
   if (c.reference != Reference::none && of_boundaries.empty()) {
     const std::string fault = column_fault(c);
     if (!fault.empty()) issues.push_back({"reference", fault});

@@ -181,6 +181,11 @@ void declare(Fields& f, Case& c) {
                "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
                "soil; boundaries that meet do so in one line or at an angle of 45 degrees or more."),
            c.boundaries);
+  f.tables(
+      Key("load", "",
+          "A force on the soil's surface: on a straight stretch of a free outline, as it is at the start, "
+          "linear from one end to the other."),
+      c.loads);
   f.set_defaults([&] {
     if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
   });
@@ -367,6 +372,25 @@ void declare(Fields& f, BoundaryCase& c) {
            boundary_kinds);
   f.point(Key("from", "m", "One end.").required(), c.from);
   f.point(Key("to", "m", "The other end.").required(), c.to);
+}
+
+void declare(Fields& f, LoadCase& c) {
+  f.name(Key("name", "", "Name of the load, unlike any other.").required(), c.name);
+  f.point(Key("from", "m", "One end of the stretch.").required(), c.from);
+  f.point(Key("to", "m", "The other end.").required(), c.to);
+  f.number(Key("pressure", "Pa", "Pressure at `from`, into the soil."), c.pressure,
+           between(-stiffest, stiffest));
+  f.set_defaults([&] { c.pressure_to = c.pressure; });
+  f.number(Key("pressure_to", "Pa", "Pressure at `to`.").otherwise("as pressure"), c.pressure_to,
+           between(-stiffest, stiffest));
+  f.point(Key("traction", "Pa", "Force per area at `from` in any direction, in addition."), c.traction);
+  f.set_defaults([&] { c.traction_to = c.traction; });
+  f.point(Key("traction_to", "Pa", "That at `to`.").otherwise("as traction"), c.traction_to);
+  f.pairs(Key("over_time", "s, -",
+              "Factor of the load over time, [[t, factor], ...]: linear between these times and constant "
+              "before and after.")
+              .otherwise("1 at all times"),
+          c.over_time);
 }
 
 void declare(Fields& f, FormulationCase& c) {

@@ -34,6 +34,7 @@ Case moved(Case scene, const Point& by) {
   for (Point& p : scene.water.level_over_time) p.y() += by.y();
   for (HydraulicFaceCase& face : scene.water.faces) face.from += by, face.to += by, face.level += by.y();
   for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
+  for (LoadCase& load : scene.loads) load.from += by, load.to += by;
   for (ProbeCase& probe : scene.probes) probe.position += by;
   return scene;
 }

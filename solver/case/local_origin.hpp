@@ -9,7 +9,7 @@ namespace porosph {
 /// the case's own origin, else the whole metres below and left of them [m]. By axis.
 Point local_origin(const Case& scene);
 
-/// The same case, moved: soils, water, boundaries and probes [m].
+/// The same case, moved: soils, water, boundaries, loads and probes [m].
 Case moved(Case scene, const Point& by);
 
 }  // namespace porosph

@@ -21,7 +21,9 @@ class Equilibrium {
     Vec2 low = s.model().particles.start.front(), high = low;
     for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
-    if (!s.scene().water.level_over_time.empty()) water_rests_ = s.scene().water.level_over_time.back().x();
+    if (!s.scene().water.level_over_time.empty()) changes_end_ = s.scene().water.level_over_time.back().x();
+    for (const LoadCase& load : s.scene().loads)
+      if (!load.over_time.empty()) changes_end_ = std::max(changes_end_, load.over_time.back().x());
   }
 
   /// Keeps the last time out of balance, and the zigzag of displacements, in `progress`.
@@ -30,7 +32,7 @@ class Equilibrium {
     if (s.unbalanced_force_ratio() >= limit_) progress.unbalanced_at = s.time();
     const double c = s.scene().loading.adaptive_damping ? s.damping() : 0;
     const double needed = c > 0 ? std::min(needed_, 4 / c) : needed_;
-    return s.time() - std::max(progress.unbalanced_at, water_rests_) >= needed &&
+    return s.time() - std::max(progress.unbalanced_at, changes_end_) >= needed &&
            !zigzag_grows(s, progress, needed);
   }
 
@@ -45,7 +47,7 @@ class Equilibrium {
     return now > small && (before < 0 || now > steady * before);
   }
 
-  double limit_, needed_ = 0, water_rests_ = 0;
+  double limit_, needed_ = 0, changes_end_ = 0;
 };
 
 std::vector<double> history_row(const Simulation& s) {

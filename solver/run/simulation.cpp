@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/case/local_origin.hpp"
 #include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
 #include "solver/run/leapfrog.hpp"
@@ -68,6 +69,7 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
+      surface_loads_(surface_loads(moved(scene, -model_.origin), model_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
   clock_.courant = courant_number(scene, model_);
   clock_.dt = time_step_of(scene, model_, clock_.courant);
@@ -106,6 +108,7 @@ std::span<const Vec2> Simulation::accelerations() {
     dynamics_->prepare();
     dynamics_->accelerations(accelerations_);
     add_loads(model_.loads, model_.particles, time(), accelerations_);
+    add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
     accelerations_valid_ = true;
   }
   return accelerations_;
@@ -220,14 +223,14 @@ bool Simulation::exchange_with_last_good() {
 }
 
 double Simulation::unbalanced_force_ratio() {
-  return porosph::unbalanced_force_ratio(model_, accelerations());
+  return porosph::unbalanced_force_ratio(model_, accelerations(), load_squares(surface_loads_, time()));
 }
 
 Simulation::Energy Simulation::energy() {
   const std::vector<Vec2> v = velocities();
   return {.kinetic = kinetic_energy(model_.particles, v),
           .elastic = elastic_energy(model_),
-          .gravity = gravity_energy(model_),
+          .gravity = gravity_energy(model_) + load_energy(surface_loads_, model_.particles, time()),
           .water = water_energy(model_)};
 }
 

@@ -10,6 +10,7 @@
 #include "solver/run/monitor/instability.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
+#include "solver/run/surface_loads.hpp"
 #include "solver/sph/dynamics.hpp"
 
 namespace porosph {
@@ -49,7 +50,7 @@ class Simulation {
   /// Root mean square of the unbalanced forces over that of the weights; infinite in a weightless scene.
   double unbalanced_force_ratio();
   struct Energy {
-    double kinetic = 0, elastic = 0, gravity = 0, water = 0;  ///< per metre of thickness [J/m]
+    double kinetic = 0, elastic = 0, gravity = 0, water = 0;  ///< gravity with loads; per metre of thickness [J/m]
     double total() const { return kinetic + elastic + gravity + water; }
   };
   /// Energy at the present instant; gravity and buoyancy relative to the start.
@@ -103,6 +104,7 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   std::vector<Probe> probes_;
   Clock clock_;
+  std::vector<LoadedParticles> surface_loads_;
   std::vector<Vec2> accelerations_;
   bool accelerations_valid_ = false;
   Relaxation relaxation_;  ///< unused unless the case's damping is adaptive

@@ -51,6 +51,12 @@ youngs_modulus = 1e6
 poissons_ratio = 0.3
 unit_weight_saturated = 20e3
 """
+LOAD = """[[load]]
+name = "strip"
+from = [1, 2]
+to = [3, 2]
+pressure = 1e4
+"""
 OUTLINE = "[[0, 0], [4, 0], [4, 2], [0, 2]]"
 
 # What is wrong, as a person would say it; then the text of the case that is replaced, and by what.
@@ -107,6 +113,13 @@ OF_THE_GROUND = [
     ("a boundary inside the soil", "from = [0, 0]\nto = [4, 0]", "from = [0, 1]\nto = [4, 1]"),
     ("water that touches no soil", "[time]", "[[water.stretches]]\nx_to = -1\nlevel = 1\n[time]"),
     ("a probe outside", "position = [2, 1]", "position = [2, 3]"),
+    ("a load that touches nothing", "[time]", LOAD.replace(", 2]", ", 3]") + "[time]"),
+    ("a load on a wall", "[time]", LOAD.replace(", 2]", ", 0]") + "[time]"),
+    ("a load that reaches beyond the soil", "[time]", LOAD.replace("[3, 2]", "[5, 2]") + "[time]"),
+    ("a load shorter than the spacing", "[time]", LOAD.replace("[3, 2]", "[1.2, 2]") + "[time]"),
+    ("a load between two soils", "[[boundary]]", CLAY.replace("4.2", "4")
+     + LOAD.replace("[1, 2]", "[4, 0]").replace("[3, 2]", "[4, 2]") + "[[boundary]]"),
+    ("a load of nothing", "[time]", LOAD.replace("pressure = 1e4\n", "") + "[time]"),
 ]
 # What is allowed but can hardly be meant, likewise: warnings, with which the case is computed.
 WARNED_OF = [
@@ -134,6 +147,12 @@ ON_THE_COMMAND_LINE = [
     ("finite elements into that folder", "fem case.toml --out other", {}),
     ("finite elements that no memory holds", "fem case.toml --out fine --edge 1e-4", {}),
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
+    ("a factor of safety without strength", "safety case.toml", {}),
+    ("a factor of safety of level ground", "safety level.toml --method limit-equilibrium", {
+        "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')}),
+    ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
+    ("a method that is not there", "safety case.toml --method bishop", {}),
+    ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
     ("a section without a line", "section run", {}),

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "solver/boundary/traction.hpp"
 #include "solver/reference/fem/elasticity.hpp"
 
 namespace porosph {
@@ -118,6 +119,29 @@ Vectors outline_load(const Case& scene, const TriangleWater& water, const Corner
                                    : outline_load(of(water), c, edge);
 }
 
+/// oint t . v over one edge, t the traction of the loads that it lies on at the case's end.
+Vectors traction_load(const Case& scene, const Corners& c, int edge) {
+  const Point &from = c[edge], &to = c[(edge + 1) % 3];
+  const double tiny = 1e-6 * scene.particles.spacing;
+  const Point normal = Point(to.y() - from.y(), from.x() - to.x()).normalized();
+  Vectors load = Vectors::Zero();
+  for (const LoadCase& given : scene.loads) {
+    if (!on_segment(from, given.from, given.to, tiny) || !on_segment(to, given.from, given.to, tiny))
+      continue;
+    const Traction traction(given);
+    for (const double s : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}) {
+      const double weight = s == 0 ? 4.0 / 9 : 5.0 / 18, part = (1 + s) / 2;
+      p4::Barycentric at = p4::Barycentric::Zero();
+      at[edge] = 1 - part;
+      at[(edge + 1) % 3] = part;
+      const Point place = from + part * (to - from);
+      load += weight * (to - from).norm() * traction.traction(place, normal, scene.time.end) *
+              p4::values(at).transpose();
+    }
+  }
+  return load;
+}
+
 Corners corners(const Mesh& mesh, int triangle) {
   const auto& v = mesh.triangles[triangle];
   return {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
@@ -197,6 +221,8 @@ LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
       add_load(outline_load(scene, water.triangles[t], corners(mesh, t), edge), nodes, freedoms, system.load);
     }
   }
+  for (const auto& [t, edge] : p4mesh.outline)
+    add_load(traction_load(scene, corners(mesh, t), edge), p4mesh.triangles[t], freedoms, system.load);
   system.stiffness.setFromTriplets(lower.begin(), lower.end());
   return system;
 }

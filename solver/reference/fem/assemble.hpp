@@ -4,7 +4,9 @@
 // with the pore pressure of the surface: (sigma' + p_w I) n = p_w n, so sigma' n = 0 there. For every virtual
 // displacement v
 //
-//   int sigma' : eps(v) = int rho g . v - int p_w div v + oint p_w n . v.
+//   int sigma' : eps(v) = int rho g . v - int p_w div v + oint p_w n . v + oint t . v,
+//
+// t the traction of the case's loads.
 //
 // Where p_w is continuous the last two terms are int grad p_w . v, the buoyancy of eq. (22); written as above
 // a jump of the water level from one stretch to the next presses on the soil there as well.

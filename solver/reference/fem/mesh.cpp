@@ -73,6 +73,11 @@ Mesh mesh_rectangle(const Case& scene, double h) {
       x_stops.push_back(end.x());
       y_stops.push_back(end.y());
     }
+  for (const LoadCase& load : scene.loads)
+    for (const Point& end : {load.from, load.to}) {
+      x_stops.push_back(end.x());
+      y_stops.push_back(end.y());
+    }
   const auto xs = divide(box.min().x(), box.max().x(), x_stops, h);
   const auto ys = divide(box.min().y(), box.max().y(), y_stops, h);
 

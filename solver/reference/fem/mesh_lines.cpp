@@ -56,7 +56,7 @@ std::vector<Segment> segments_of(const Case& scene, const Eigen::AlignedBox2d& b
   return segments;
 }
 
-/// All points where the segments end or meet, and where boundaries and faces of the water end.
+/// All points where the segments end or meet, and where boundaries, faces of the water and loads end.
 std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Case& scene) {
   std::vector<Point> points;
   for (const Segment& s : segments) {
@@ -72,6 +72,7 @@ std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Ca
     points.push_back(face.from);
     points.push_back(face.to);
   }
+  for (const LoadCase& load : scene.loads) points.insert(points.end(), {load.from, load.to});
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (const Point& p : crossings(segments[i].a, segments[i].b, segments[j].a, segments[j].b))

@@ -45,8 +45,12 @@ int Section::Column::soil_at(double x, double y) const {
   return nothing;
 }
 
-Section::Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight)
-    : soils_(std::move(soils)), water_(std::move(water)), water_unit_weight_(water_unit_weight) {
+Section::Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight,
+                 std::vector<GroundLoad> loads)
+    : soils_(std::move(soils)),
+      water_(std::move(water)),
+      water_unit_weight_(water_unit_weight),
+      loads_(std::move(loads)) {
   for (const SectionSoil& soil : soils_)
     if (!(soil.unit_weight_saturated > 0 && soil.unit_weight_unsaturated > 0))
       throw std::invalid_argument("limit equilibrium: unit weights must be > 0 N/m3");
@@ -67,7 +71,10 @@ Section Section::mirrored() const {
     std::swap(piece.from, piece.to);
     piece.from.x() = -piece.from.x(), piece.to.x() = -piece.to.x();
   }
-  return {std::move(soils), std::move(water), water_unit_weight_};
+  std::vector<GroundLoad> loads = loads_;
+  for (GroundLoad& load : loads)
+    for (Point* p : {&load.from, &load.to, &load.traction_from, &load.traction_to}) p->x() = -p->x();
+  return {std::move(soils), std::move(water), water_unit_weight_, std::move(loads)};
 }
 
 std::vector<double> Section::corners() const {
@@ -84,6 +91,7 @@ std::vector<double> Section::corners() const {
   for (const WaterPiece& piece : water_)
     for (const double at : {piece.from.x(), piece.to.x()})
       if (at > left && at < right) x.push_back(at);
+  for (const GroundLoad& load : loads_) x.insert(x.end(), {load.from.x(), load.to.x()});
   std::sort(x.begin(), x.end());
   const double same = x.empty() ? 0 : 1e-9 * (x.back() - x.front());
   x.erase(std::unique(x.begin(), x.end(), [same](double a, double b) { return b - a <= same; }), x.end());
@@ -149,6 +157,17 @@ double Section::weight_above(const Column& column, double x, double y) const {
 
 double Section::pore_pressure(const Column& column, double x, double y) const {
   return water_unit_weight_ * std::max(0.0, column.water_level(x) - y);
+}
+
+Point Section::traction_at(const Point& place) const {
+  Point sum = Point::Zero();
+  for (const GroundLoad& load : loads_) {
+    const Point way = load.to - load.from;
+    const double t = (place - load.from).dot(way) / way.squaredNorm();
+    const bool on_it = t >= 0 && t <= 1 && (place - load.from - t * way).norm() <= 1e3 * smallest_;
+    if (on_it) sum += load.traction_from + t * (load.traction_to - load.traction_from);
+  }
+  return sum;
 }
 
 void Section::trace_ground() {

@@ -38,11 +38,18 @@ struct WaterPiece {
   Point from, to;  ///< from.x() < to.x() [m]
 };
 
+/// A load on a straight piece of ground, linear from end to end.
+struct GroundLoad {
+  Point from, to;                    ///< [m]
+  Point traction_from, traction_to;  ///< force per area [Pa]
+};
+
 /// Soils and water between neighbouring corners, where all lines are straight. Coordinates in m.
 class Section {
  public:
   /// Throws std::invalid_argument where a unit weight is not positive.
-  Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight);
+  Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight,
+          std::vector<GroundLoad> loads = {});
 
   /// The same section seen from behind: x becomes -x.
   Section mirrored() const;
@@ -80,6 +87,8 @@ class Section {
   double weight_above(const Column& column, double x, double y) const;
   /// u >= 0 below the water's surface [Pa].
   double pore_pressure(const Column& column, double x, double y) const;
+  /// What the loads do at a place on the ground: force per area [Pa].
+  Point traction_at(const Point& place) const;
 
   /// Unbroken pieces of ground, from left to right; upright steps are segments of no width.
   const std::vector<Polygon>& grounds() const { return grounds_; }
@@ -92,6 +101,7 @@ class Section {
   std::vector<SectionSoil> soils_;
   std::vector<WaterPiece> water_;
   double water_unit_weight_;
+  std::vector<GroundLoad> loads_;
   std::vector<Column> columns_;
   std::vector<Polygon> grounds_;
   double smallest_ = 0;  ///< lengths below this are none [m]

@@ -9,6 +9,11 @@ namespace {
 
 using Column = Section::Column;
 
+void add_force(const Point& at, const Point& force, Slice& slice) {
+  slice.push += force.x(), slice.press -= force.y();
+  slice.top_torque += at.x() * force.y() - at.y() * force.x();
+}
+
 /// What the water does that presses on a straight piece of ground from a to b, soil below or to the right of
 /// it. Two Gauss points: exact for pressure that varies linearly.
 void add_water(const Section& section, const Column& column, const Point& a, const Point& b, Slice& slice) {
@@ -16,9 +21,16 @@ void add_water(const Section& section, const Column& column, const Point& a, con
   for (const double t : {half - offset, half + offset}) {
     const Point at = a + t * (b - a);
     const double pressure = half * section.pore_pressure(column, at.x(), at.y());
-    const double push = pressure * (b - a).y(), press = pressure * (b - a).x();
-    slice.push += push, slice.press += press;
-    slice.water_torque += -at.x() * press - at.y() * push;
+    add_force(at, pressure * Point((b - a).y(), -(b - a).x()), slice);
+  }
+}
+
+/// The loads on a straight piece of ground, likewise.
+void add_loads(const Section& section, const Point& a, const Point& b, Slice& slice) {
+  const double half = 0.5, offset = 0.5 / std::sqrt(3.0);
+  for (const double t : {half - offset, half + offset}) {
+    const Point at = a + t * (b - a);
+    add_force(at, half * (b - a).norm() * section.traction_at(at), slice);
   }
 }
 
@@ -91,10 +103,12 @@ class Cutter {
                 .weight = along.x() * section_.weight_above(column, base.x(), base.y()),
                 .push = 0,
                 .press = 0,
-                .water_torque = 0,
+                .top_torque = 0,
                 .pore_pressure = section_.pore_pressure(column, base.x(), base.y()),
                 .strength = section_.soils()[static_cast<std::size_t>(soil)].strength->at(base.y())};
-    add_water(section_, column, {a.x(), column.ground(a.x())}, {b.x(), column.ground(b.x())}, slice);
+    const Point left{a.x(), column.ground(a.x())}, right{b.x(), column.ground(b.x())};
+    add_water(section_, column, left, right, slice);
+    add_loads(section_, left, right, slice);
     slices_.push_back(slice);
   }
 
@@ -123,6 +137,7 @@ class Cutter {
       return rises ? s.base.x() > x : s.base.x() + 0.5 * s.width >= x - tolerance_;
     });
     if (slice == slices_.end()) return;
+    add_loads(section_, {x, below}, {x, above}, *slice);
     // Only what is wetted: pressure is linear below the level.
     const double level = wet.water_level(x);
     const double low = std::min(below, above), high = std::min(std::max(below, above), std::max(level, low));

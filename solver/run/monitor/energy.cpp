@@ -35,14 +35,15 @@ double water_energy(const Model& model) {
   });
 }
 
-double unbalanced_force_ratio(const Model& model, std::span<const Vec2> accelerations) {
+double unbalanced_force_ratio(const Model& model, std::span<const Vec2> accelerations,
+                              double squares_of_loads) {
   const auto squares = [&](auto&& acceleration_squared) {
     return deterministic_sum(accelerations.size(), [&](std::size_t i) {
       return model.particles.mass[i] * model.particles.mass[i] * acceleration_squared(i);
     });
   };
   const double force = squares([&](std::size_t i) { return accelerations[i].squaredNorm(); });
-  const double weight = squares([&](std::size_t) { return model.gravity.squaredNorm(); });
+  const double weight = squares([&](std::size_t) { return model.gravity.squaredNorm(); }) + squares_of_loads;
   return weight > 0 ? std::sqrt(force / weight) : std::numeric_limits<double>::infinity();
 }
 

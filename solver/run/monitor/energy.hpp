@@ -18,6 +18,7 @@ double gravity_energy(const Model& model);  ///< of the soil's weight, zero at t
 double water_energy(const Model& model);
 
 /// Root mean square of mass times acceleration over that of the weight; infinite where nothing weighs [-].
-double unbalanced_force_ratio(const Model& model, std::span<const Vec2> accelerations);
+double unbalanced_force_ratio(const Model& model, std::span<const Vec2> accelerations,
+                              double squares_of_loads = 0);
 
 }  // namespace porosph

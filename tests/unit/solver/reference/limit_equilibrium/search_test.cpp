@@ -184,3 +184,26 @@ TEST_CASE("nothing slides on level ground, through rock, or without soil", "[lim
   CHECK_FALSE(find_critical_surfaces(Section({}, {}, water_weight)));
   CHECK_THROWS_AS(Section({soil(level, 1e3, 10, 0)}, {}, water_weight), std::invalid_argument);
 }
+
+TEST_CASE("a load on the crest drives, one at the toe holds, and soil above ground is the same as its weight",
+          "[limit_equilibrium]") {
+  const double cohesion = 30e3;
+  const SectionSoil clay = soil(slope(45, 6, 6), cohesion, 0);
+  const auto factor = [&](std::vector<GroundLoad> loads) {
+    return find_critical_surfaces(Section({clay}, {}, water_weight, std::move(loads)))->bishop.factor;
+  };
+  const Point down(0, -40e3);
+  const double bare = factor({});
+  CHECK(factor({{{-26, 6}, {-6, 6}, down, down}}) < 0.9 * bare);
+  CHECK(factor({{{0, 0}, {20, 0}, down, down}}) > bare);
+  // Water that stands over all the ground, as a load and as buoyancy: the same circle without friction.
+  const double level = 10;
+  const auto pressed = [&](const Point& a, const Point& b) {
+    const Point normal = Point(b.y() - a.y(), a.x() - b.x()).normalized();
+    return GroundLoad{a, b, normal * water_weight * (level - a.y()), normal * water_weight * (level - b.y())};
+  };
+  const double drowned =
+      find_critical_surfaces(Section({clay}, {{{-500, level}, {500, level}}}, water_weight))->bishop.factor;
+  CHECK(factor({pressed({-78, 6}, {-6, 6}), pressed({-6, 6}, {0, 0}), pressed({0, 0}, {72, 0})}) ==
+        Approx(drowned).epsilon(1e-3));
+}

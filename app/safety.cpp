@@ -1,0 +1,205 @@
+// porosph safety: the factor of safety of a case, by the particles and by limit equilibrium.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "app/command.hpp"
+#include "app/interruption.hpp"
+#include "app/results.hpp"
+#include "app/say.hpp"
+#include "app/shipped_cases.hpp"
+#include "solver/case/case_file.hpp"
+#include "solver/printable.hpp"
+#include "solver/reference/limit_equilibrium/section_of_case.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/folder_lock.hpp"
+#include "vtk_io/run_folder/safety_files.hpp"
+#ifdef POROSPH_HAS_VTK
+#include "vtk_io/line_vtp.hpp"
+#endif
+#ifdef POROSPH_HAS_RENDER
+#include "render/run/safety_pictures.hpp"
+#endif
+
+namespace porosph::app {
+namespace {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string case_file, folder, method;
+  std::vector<std::string> overrides;
+  double bracket = 0.01;
+  int jobs = 1;
+  bool quiet = false, force = false;
+
+  bool by_particles() const { return method != "limit-equilibrium"; }
+  bool by_limit_equilibrium() const { return method != "strength-reduction"; }
+};
+
+std::optional<Options> read_options(const Arguments& arguments) {
+  Options o;
+  po::options_description options;
+  options.add_options()("case", po::value(&o.case_file)->required(), "the case file")(
+      "out", po::value(&o.folder)->value_name("DIR"),
+      "folder for the results (default: results/<case>_safety)")(
+      "method",
+      po::value(&o.method)->value_name("both|strength-reduction|limit-equilibrium")->default_value("both"),
+      "strength reduction in the particles, limit equilibrium on slip surfaces, or both")(
+      "bracket", po::value(&o.bracket)->value_name("WIDTH")->default_value(0.01, "0.01"),
+      "how close to each other the factors shall be at which the body rests and fails")(
+      "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
+      "replaces a setting of the case; may be given again")(
+      "jobs",
+      po::value(&o.jobs)->value_name("N")->default_value(
+          static_cast<int>(std::thread::hardware_concurrency())),
+      "factors tried at a time, each on one core")("force", "replace another case's results")(
+      "quiet", "say nothing unless something is wrong");
+  po::positional_options_description positional;
+  positional.add("case", 1);
+  po::variables_map values;
+  if (!parse(arguments, options, positional, "safety CASE.toml [options]",
+             "  porosph safety safety/griffiths_lane_1\n"
+             "  porosph safety safety/griffiths_lane_1 --method limit-equilibrium\n"
+             "  porosph safety safety/griffiths_lane_1 --set soil.slope.cohesion=5e3 --bracket 0.02\n",
+             values))
+    return std::nullopt;
+  if (o.method != "both" && o.method != "strength-reduction" && o.method != "limit-equilibrium")
+    throw UsageError(fmt::format("--method = {}: must be both, strength-reduction or limit-equilibrium",
+                                 printable(o.method)));
+  if (!(o.bracket >= 1e-4 && o.bracket <= 1))
+    throw UsageError(fmt::format("--bracket = {}: must be from 0.0001 to 1", o.bracket));
+  if (o.jobs < 1 || o.jobs > 1024)
+    throw UsageError(fmt::format("--jobs = {}: must be from 1 to 1024", o.jobs));
+  o.quiet = values.count("quiet") > 0, o.force = values.count("force") > 0;
+  return o;
+}
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+void check_soils(const Case& scene) {
+  if (!scene.loading.gravity_applied)
+    throw UsageError(
+        "safety: loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety");
+  for (const SoilCase& soil : scene.soils)
+    if (soil.law != LawKind::elastic) return;
+  throw UsageError(
+      "safety: no soil of the case has a strength: give one soil[].law = \"mohr_coulomb\", "
+      "\"drucker_prager\" or "
+      "\"tresca\"");
+}
+
+/// Limit equilibrium takes pore pressure from a level; that of flow it does not know.
+void check_water(const Case& scene, const Options& o) {
+  if (!scene.water.flows()) return;
+  if (!o.by_particles())
+    throw UsageError(
+        "safety: limit equilibrium is for still water, but water.mode is \"steady\"; "
+        "--method strength-reduction takes the water that flows");
+  if (o.by_limit_equilibrium() && !o.quiet)
+    say(stdout, "note: limit equilibrium is for still water and is left out\n");
+}
+
+void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {
+  const Stopwatch watch;
+  answer.limit_equilibrium = limit_equilibrium::find_critical_surfaces(limit_equilibrium::section_of(scene));
+  answer.limit_equilibrium_seconds = watch.seconds();
+}
+
+void find_by_particles(const Case& scene, const Options& o, SafetyAnswer& answer) {
+  StrengthReductionOptions options{.bracket = o.bracket, .jobs = o.jobs, .interrupted = is_interrupted};
+  if (answer.limit_equilibrium) options.first_guess = answer.limit_equilibrium->bishop.factor;
+  if (!o.quiet)
+    options.finished = [](const StrengthTrial& t) {
+      say(stdout, fmt::format("strength / {:<7.4f} {}, {:.4g} m after {} steps\n", t.factor, words_of(t.end),
+                              t.displacement, t.steps));
+    };
+  const Stopwatch watch;
+  answer.particles = reduce_strength(scene, options);
+  answer.particle_seconds = watch.seconds();
+}
+
+/// The bracket as people say it.
+std::string bracket_text(const StrengthReduction& found) {
+  if (found.fails_at == never) return fmt::format("above {:.4g}", found.stable_at);
+  if (found.stable_at == 0) return fmt::format("below {:.4g}", found.fails_at);
+  return fmt::format("{:.4g} to {:.4g}", found.stable_at, found.fails_at);
+}
+
+void tell(const SafetyAnswer& answer) {
+  say(stdout, "\nfactor of safety\n");
+  const auto row = [](const std::string& method, const std::string& factor, double seconds) {
+    say(stdout, fmt::format("  {:36} {:18} {:.2f} s\n", method, factor, seconds));
+  };
+  if (answer.particles)
+    row("strength reduction, particles", bracket_text(*answer.particles), answer.particle_seconds);
+  for (const NamedSurface& s : slip_surfaces(answer))
+    row("limit equilibrium, " + s.name, fmt::format("{:.3f}", s.surface.factor),
+        answer.limit_equilibrium_seconds);
+  if (answer.limit_equilibrium && !answer.limit_equilibrium->spencer)
+    say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
+}
+
+void write(const Case& scene, const SafetyAnswer& answer, const fs::path& folder) {
+  if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
+  if (answer.limit_equilibrium) {
+    write_slip_surfaces(folder / "slip_surfaces.csv", answer);
+#ifdef POROSPH_HAS_VTK
+    std::vector<std::vector<Point>> lines;
+    std::vector<double> factors;
+    for (const NamedSurface& s : slip_surfaces(answer))
+      lines.push_back(s.surface.points), factors.push_back(s.surface.factor);
+    write_lines_vtp(folder / "slip_surfaces.vtp", lines, "FactorOfSafety", factors);
+#endif
+  }
+#ifdef POROSPH_HAS_RENDER
+  if (answer.particles) save_safety_curve(answer, folder / "safety.png");
+  save_mechanism(scene, answer, folder / "mechanism.png");
+#endif
+  write_safety_summary(folder / "safety.json", answer);
+}
+
+}  // namespace
+
+int safety_command(const Arguments& arguments) {
+  const auto o = read_options(arguments);
+  if (!o) return Exit::done;
+  const Case scene = read_case(find_case(o->case_file), o->overrides);
+  check_soils(scene);
+  check_water(scene, *o);
+  const fs::path folder = o->folder.empty()
+                              ? fs::path("results") / (fs::path(o->case_file).stem().string() + "_safety")
+                              : fs::path(o->folder);
+  catch_interruptions();
+  const std::string case_text = write_case(scene);
+  const FolderLock lock(folder);
+  if (!o->force) check_owner(folder, case_text, true);
+  SafetyAnswer answer;
+  answer.title = scene.title;
+  if (!scene.water.flows()) find_by_limit_equilibrium(scene, answer);
+  if (!answer.limit_equilibrium && !o->by_particles())
+    throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
+  if (o->by_particles()) find_by_particles(scene, *o, answer);
+  if (is_interrupted()) return Exit::interrupted;
+  if (!o->by_limit_equilibrium()) answer.limit_equilibrium.reset();
+  take_folder(folder, case_text);
+  write(scene, answer, folder);
+  if (!o->quiet) {
+    tell(answer);
+    say(stdout, folder.string() + "\n");
+  }
+  return Exit::done;
+}
+
+}  // namespace porosph::app

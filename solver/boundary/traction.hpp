@@ -1,0 +1,26 @@
+// A load that a case describes: traction on a straight stretch of the outline.
+#pragma once
+
+#include "solver/boundary/load.hpp"
+#include "solver/case/case.hpp"
+
+namespace porosph {
+
+/// Linear along its stretch, beyond its ends as at them; times a factor that is linear between points in time
+/// and constant before and after.
+class Traction final : public Load {
+ public:
+  explicit Traction(LoadCase load) : load_(std::move(load)) {}
+  Vec2 traction(const Vec2& place, const Vec2& normal, double time) const override;
+
+ private:
+  LoadCase load_;
+};
+
+/// The unit normal of the load's stretch that points out of the soil.
+Vec2 outward_normal(const Case& scene, const LoadCase& load);
+
+/// The load as it stands at a time [s], from then on.
+LoadCase at_rest_from(LoadCase load, double time);
+
+}  // namespace porosph

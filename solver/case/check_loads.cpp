@@ -1,0 +1,60 @@
+#include "solver/case/check_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/case/outline_edges.hpp"
+
+namespace porosph {
+namespace {
+
+/// How much of the segment from a to b the edge covers [m].
+double common_length(const Point& a, const Point& b, const Point& c, const Point& d, double tolerance) {
+  const double length = (b - a).norm();
+  const Point along = (b - a) / length, across(-along.y(), along.x());
+  if (std::abs(across.dot(c - a)) > tolerance || std::abs(across.dot(d - a)) > tolerance) return 0;
+  const auto [from, to] = std::minmax({along.dot(c - a), along.dot(d - a)});
+  return std::max(0.0, std::min(to, length) - std::max(from, 0.0));
+}
+
+std::string place_fault(const Case& c, const LoadCase& load) {
+  const double spacing = c.particles.spacing, tolerance = 1e-3 * spacing;
+  const double length = (load.to - load.from).norm();
+  if (length < spacing) return fmt::format("is shorter than the spacing of {} m", spacing);
+  double covered = 0;
+  for (const OutlineEdge& e : outline_edges(c.soils))
+    covered += common_length(load.from, load.to, e.a, e.b, tolerance);
+  if (covered < tolerance) return "does not lie on the outline of any soil";
+  if (covered > length + tolerance) return "lies between two soils: it must be on a free surface";
+  if (covered < length - tolerance)
+    return fmt::format(
+        "lies on the outline along {:.4g} of its {:.4g} m only: it must end on one straight stretch", covered,
+        length);
+  for (std::size_t i = 0; i < c.boundaries.size(); ++i)
+    if (common_length(load.from, load.to, c.boundaries[i].from, c.boundaries[i].to, tolerance) > tolerance)
+      return fmt::format("lies on boundary[{}]: it must be on a free surface", i);
+  return "";
+}
+
+bool is_nothing(const LoadCase& load) {
+  return load.pressure == 0 && load.pressure_to == 0 && load.traction == Point::Zero() &&
+         load.traction_to == Point::Zero();
+}
+
+}  // namespace
+
+std::vector<CaseIssue> check_loads(const Case& c) {
+  std::vector<CaseIssue> issues;
+  for (std::size_t i = 0; i < c.loads.size(); ++i) {
+    const std::string key = fmt::format("load[{}]", i);
+    if (is_nothing(c.loads[i]))
+      issues.push_back(
+          {key, fmt::format("load '{}' has neither a pressure nor a traction", c.loads[i].name)});
+    if (const std::string fault = place_fault(c, c.loads[i]); !fault.empty()) issues.push_back({key, fault});
+  }
+  return issues;
+}
+
+}  // namespace porosph

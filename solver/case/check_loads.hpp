@@ -1,0 +1,14 @@
+// What the check of a case asks about loads.
+#pragma once
+
+#include <vector>
+
+#include "solver/case/check_case.hpp"
+
+namespace porosph {
+
+/// Whether each load presses on something, and lies on one straight free stretch of the outline. Outlines and
+/// boundaries must be right.
+std::vector<CaseIssue> check_loads(const Case&);
+
+}  // namespace porosph

@@ -1,0 +1,60 @@
+// The factor of safety by strength reduction: the divisor of all strength at which a body at rest gives way.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "solver/run/simulation.hpp"
+
+namespace porosph {
+
+/// How a trial with divided strength ended.
+enum class TrialEnd {
+  at_rest,      ///< forces are in balance: stable
+  moved_far,    ///< displacements beyond what a body at rest has: failed
+  not_at_rest,  ///< in motion after the longest time: failed
+  broke_down,   ///< the state is no longer one of soil: failed
+};
+
+struct StrengthTrial {
+  double factor = 0;  ///< that cohesion and tan(phi) are divided by
+  TrialEnd end = TrialEnd::at_rest;
+  double displacement = 0;  ///< largest of all particles, at the end [m]
+  double unbalanced = 0;    ///< unbalanced force ratio at the end [-]
+  std::int64_t steps = 0;
+  bool stable() const { return end == TrialEnd::at_rest; }
+};
+
+struct StrengthReduction {
+  double stable_at = 0;     ///< largest factor at which the body comes to rest; 0: none was found
+  double fails_at = never;  ///< smallest at which it does not; infinite: none was found
+  double at_rest = 0;       ///< largest displacement at rest, without division or, if that fails, elastic [m]
+  std::vector<StrengthTrial> trials;      ///< by their factor
+  std::unique_ptr<Simulation> mechanism;  ///< the trial at `fails_at`, as it ended; empty if there is none
+};
+
+struct StrengthReductionOptions {
+  double bracket = 0.01;           ///< width at which the search ends: fails_at - stable_at
+  double first_guess = 1.3;        ///< where to begin
+  double least = 0.05, most = 50;  ///< factors beyond which no more are tried
+  int jobs = 1;                    ///< trials at a time, each on one core
+  std::function<void(const StrengthTrial&)> finished = {};  ///< after each, by one thread at a time
+  std::function<bool()> interrupted = {};                   ///< true ends the search
+};
+
+/// The case with cohesion, undrained strength and tan(phi) divided by a factor, and how it is computed for
+/// this purpose: reference frozen (no displacement here is more than a hundredth of the body), adaptive
+/// damping, Courant number 0.6, water and loads as they stand at the case's end. factor = 0: elastic.
+Case weakened(const Case& scene, double factor);
+
+/// Divides strength by factors from a bracket that gets narrower, each trial from the unstressed or K0 state
+/// at the start. Stable: the unbalanced force ratio falls below 1e-4 within 40 of the body's longest periods
+/// and before displacements exceed 5 times those at rest (the ratio alone would take a failed slope for
+/// stable that has flowed to a new rest). Throws std::runtime_error where the case cannot be built, has no
+/// gravity, or no soil that yields.
+StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options);
+
+}  // namespace porosph

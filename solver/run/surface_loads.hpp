@@ -1,0 +1,40 @@
+// The loads of a case, shared out to the particles on the surface.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/boundary/load.hpp"
+#include "solver/case/case.hpp"
+#include "solver/model/model.hpp"
+
+namespace porosph {
+
+/// What a load acts on: the surface at the start, in parts that its particles carry.
+struct LoadedParticles {
+  std::shared_ptr<const Load> load;
+  Vec2 normal;                          ///< out of the soil
+  std::vector<std::int32_t> particles;  ///< that carry it
+  std::vector<Vec2> places;             ///< of each on the stretch [m]
+  std::vector<double> areas;            ///< of each, per metre of thickness [m]
+};
+
+/// The surface vector n_a of each particle [m]: minus its force under a unit pressure everywhere, by the
+/// case's own form. A traction sigma n_a is then in balance with a uniform stress sigma to rounding.
+std::vector<Vec2> surface_vectors(const Case& scene, const Model& model);
+
+/// Throws std::runtime_error where no particle is near a load's stretch.
+std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model);
+
+/// Adds what the loads do at a time [s] to the accelerations [m/s2].
+void add_surface_loads(std::span<const LoadedParticles> loads, const Particles& particles, double time,
+                       std::span<Vec2> accelerations);
+
+/// Minus the loads' forces times what they have moved [J/m].
+double load_energy(std::span<const LoadedParticles> loads, const Particles& particles, double time);
+
+/// Sum of the squares of the loads' forces on the particles [N2/m2].
+double load_squares(std::span<const LoadedParticles> loads, double time);
+
+}  // namespace porosph

@@ -1,0 +1,92 @@
+// porosph safety as a user runs it.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/porosph.hpp"
+
+using namespace porosph;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string slope = R"(title = "Slope"
+[particles]
+spacing = 1
+[[soil]]
+name = "loam"
+polygon = [[0, 0], [32, 0], [12, 10], [0, 10]]
+youngs_modulus = 100e6
+poissons_ratio = 0.3
+unit_weight_saturated = 20e3
+law = "mohr_coulomb"
+cohesion = 10e3
+friction_angle = 20
+[[boundary]]
+kind = "fixed"
+from = [0, 0]
+to = [32, 0]
+[[boundary]]
+kind = "roller"
+from = [0, 0]
+to = [0, 10]
+[time]
+end = 1
+)";
+
+nlohmann::json answer(const Workplace& place, const std::string& folder) {
+  return nlohmann::json::parse(text_of(place.folder() / folder / "safety.json"));
+}
+
+bool exists(const Workplace& place, const std::string& file) {
+  return std::filesystem::exists(place.folder() / file);
+}
+
+}  // namespace
+
+TEST_CASE("a factor of safety comes with both numbers, its curve and its mechanism") {
+  const Workplace place;
+  place.write("slope.toml", slope);
+  const Outcome outcome = place.porosph("safety slope.toml --bracket 0.05 --out found");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK_THAT(outcome.out, Contains("strength reduction, particles") && Contains("Bishop on circles"));
+  const auto json = answer(place, "found");
+  const double rests = json["strength_reduction"]["stable_at"],
+               fails = json["strength_reduction"]["fails_at"];
+  CHECK(fails - rests < 0.0501);
+  CHECK(rests > 1.3);
+  CHECK(fails < 1.5);
+  CHECK(json["limit_equilibrium"]["bishop"].get<double>() == Approx(1.378).margin(0.01));
+  CHECK(json["limit_equilibrium"]["spencer"].get<double>() == Approx(1.376).margin(0.01));
+  for (const char* file :
+       {"safety.csv", "safety.png", "mechanism.png", "slip_surfaces.csv", "slip_surfaces.vtp", "case.toml"})
+    CHECK(exists(place, std::string("found/") + file));
+  CHECK_THAT(text_of(place.folder() / "found/safety.csv"), Contains("at rest") && Contains("moved far"));
+}
+
+TEST_CASE("limit equilibrium stands alone, without a particle computed") {
+  const Workplace place;
+  place.write("slope.toml", slope);
+  const Outcome outcome =
+      place.porosph("safety slope.toml --method limit-equilibrium --set water.level=15 --out found");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto json = answer(place, "found");
+  CHECK_FALSE(json.contains("strength_reduction"));
+  CHECK(json["limit_equilibrium"]["bishop"].get<double>() == Approx(1.82).margin(0.02));  // under water
+  CHECK_FALSE(exists(place, "found/safety.csv"));
+  CHECK(exists(place, "found/mechanism.png"));
+  const Outcome undrained = place.porosph(
+      "safety slope.toml --method limit-equilibrium --quiet --set soil.loam.law=tresca --set "
+      "soil.loam.undrained_strength=30e3 --out clay");
+  CHECK(undrained.status == 2);  // cohesion is not a key of this law
+}
+
+TEST_CASE("strength reduction alone leaves limit equilibrium out") {
+  const Workplace place;
+  place.write("slope.toml", slope);
+  REQUIRE(place.porosph("safety slope.toml --method strength-reduction --bracket 0.2 --quiet --out found")
+              .status == 0);
+  CHECK_FALSE(answer(place, "found").contains("limit_equilibrium"));
+  CHECK_FALSE(exists(place, "found/slip_surfaces.csv"));
+}

@@ -1,0 +1,79 @@
+// A strip load on elastic ground: particles against finite elements, finite elements against Flamant's
+// theory.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/case/case_file.hpp"
+#include "solver/reference/fem/mesh.hpp"
+#include "solver/reference/fem/solve.hpp"
+#include "solver/run/simulation.hpp"
+#include "tests/box_of_soil.hpp"
+
+using namespace porosph;
+
+namespace {
+
+constexpr double q = 20e3;
+
+/// The right half of weightless ground, wide and deep, with a strip load of half width 2 m.
+Case half_space(double wide, double deep) {
+  Case scene = box_of_soil(2, 2, 0.25);
+  SoilCase& soil = scene.soils[0];
+  soil.polygon = {{0, -deep}, {wide, -deep}, {wide, 0}, {0, 0}};
+  soil.youngs_modulus = 20e6, soil.poissons_ratio = 0.3;
+  add_wall(scene, BoundaryKind::fixed, {0, -deep}, {wide, -deep});
+  add_wall(scene, BoundaryKind::roller, {0, -deep}, {0, 0});
+  add_wall(scene, BoundaryKind::roller, {wide, -deep}, {wide, 0});
+  LoadCase strip;
+  strip.name = "strip", strip.from = {0, 0}, strip.to = {2, 0};
+  strip.pressure = strip.pressure_to = q;
+  scene.loads.push_back(strip);
+  scene.loading.gravity_applied = false;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("finite elements under a strip load have the stress of theory", "[load]") {
+  const Case scene = half_space(160, 160);
+  const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 4));
+  // Uniform strip from -b to b (Flamant 1892): a = angle that it spans seen from the point, d = to its far
+  // side.
+  for (const Point& at : {Point(0, -1), Point(0, -3), Point(1, -2), Point(3, -2), Point(5, -4)}) {
+    CAPTURE(at.x(), at.y());
+    const double depth = -at.y(), right = std::atan2(at.x() - 2, depth), left = std::atan2(at.x() + 2, depth);
+    const double a = left - right, sum = left + right;
+    const auto stress = fem.at(at).effective_stress;
+    CHECK(stress[1] == Approx(-q / std::numbers::pi * (a + std::sin(a) * std::cos(sum))).margin(0.01 * q));
+    CHECK(stress[0] == Approx(-q / std::numbers::pi * (a - std::sin(a) * std::cos(sum))).margin(0.01 * q));
+    CHECK(std::abs(stress[3]) ==
+          Approx(std::abs(q / std::numbers::pi * std::sin(a) * std::sin(sum))).margin(0.01 * q));
+  }
+}
+
+TEST_CASE("particles under a strip load have the stress of finite elements", "[load]") {
+  Case scene = half_space(12, 8);
+  const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 0.5));
+  scene.particles.arrangement = Arrangement::surface, scene.particles.smoothing_ratio = 1;
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.loading.adaptive_damping = true;
+  scene.time.courant = 0.6, scene.time.end = 3;
+  Simulation s(scene);
+  while (s.step() < s.last_step() && (s.step() % 20 != 0 || s.unbalanced_force_ratio() > 1e-5)) s.advance();
+  CHECK(s.step() < s.last_step());
+  const Particles& p = s.model().particles;
+  double most = 0, most_u = 0, largest_u = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const FemPoint exact = fem.at(p.start[i]);
+    largest_u = std::max(largest_u, exact.displacement.norm());
+    most_u = std::max(most_u, (p.displacement(i) - exact.displacement).norm());
+    if ((p.start[i] - Vec2(2, 0)).norm() < 2 * scene.particles.spacing * (1 + 1e-9)) continue;  // the edge
+    most = std::max({most, std::abs(p.stress[i].yy - exact.effective_stress[1]),
+                     std::abs(p.stress[i].xx - exact.effective_stress[0]),
+                     std::abs(p.stress[i].xy - exact.effective_stress[3])});
+  }
+  CAPTURE(most / q, most_u / largest_u);
+  CHECK(most < 0.01 * q);
+  CHECK(most_u < 0.02 * largest_u);
+}

@@ -1,0 +1,116 @@
+// Loads on the soil's surface.
+#include "solver/run/surface_loads.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/case/case_file.hpp"
+#include "solver/run/simulation.hpp"
+#include "tests/box_of_soil.hpp"
+
+using namespace porosph;
+
+namespace {
+
+LoadCase pressing(const Point& from, const Point& to, double pressure) {
+  LoadCase load;
+  load.name = "load", load.from = from, load.to = to;
+  load.pressure = load.pressure_to = pressure;
+  return load;
+}
+
+/// A weightless box, 12 x 8 cells, held as a column, pressed on its top.
+Case pressed_box(Arrangement arrangement, double pressure) {
+  Case scene = box_of_soil(12, 8, 0.5);
+  hold_as_column(scene);
+  scene.particles.arrangement = arrangement;
+  scene.particles.smoothing_ratio = arrangement == Arrangement::surface ? 1 : 1.2;
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.loading.gravity_applied = false;
+  scene.loads.push_back(pressing({0, 4}, {6, 4}, pressure));
+  return scene;
+}
+
+Vec2 total_force(std::span<const LoadedParticles> loads, double time) {
+  Vec2 sum = Vec2::Zero();
+  for (const LoadedParticles& l : loads)
+    for (std::size_t k = 0; k < l.particles.size(); ++k)
+      sum += l.areas[k] * l.load->traction(l.places[k], l.normal, time);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a pressed column is in balance with its uniform stress to rounding", "[load]") {
+  const Arrangement arrangement =
+      GENERATE(Arrangement::lattice, Arrangement::fitted, Arrangement::surface, Arrangement::stretched);
+  const double q = 30e3;
+  Case scene = pressed_box(arrangement, q);
+  Model model = build_model(scene);
+  const std::vector<LoadedParticles> loads = surface_loads(scene, model);
+  const double lateral = scene.soils[0].poissons_ratio / (1 - scene.soils[0].poissons_ratio);
+  std::ranges::fill(model.particles.stress, Stress{-lateral * q, -q, -lateral * q, 0});
+  const auto dynamics = make_dynamics(scene.formulation, model);
+  std::vector<Vec2> a(model.particles.size(), Vec2::Zero());
+  dynamics->prepare();
+  dynamics->accelerations(a);
+  add_surface_loads(loads, model.particles, 0, a);
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, model.particles.mass[i] * a[i].norm());
+  CHECK(most < 1e-9 * q * scene.particles.spacing);
+  CHECK(total_force(loads, 0).y() == Approx(-q * 6).epsilon(1e-9));
+  CHECK(std::abs(total_force(loads, 0).x()) < 1e-9 * q);
+}
+
+TEST_CASE("all faces of a free box under one pressure are in balance, corners included", "[load]") {
+  Case scene = pressed_box(Arrangement::lattice, 0);
+  scene.boundaries.clear(), scene.loads.clear();
+  const double q = 10e3;
+  const Polygon corners{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
+  for (std::size_t i = 0; i < 4; ++i) scene.loads.push_back(pressing(corners[i], corners[(i + 1) % 4], q));
+  Model model = build_model(scene);
+  const auto loads = surface_loads(scene, model);
+  std::ranges::fill(model.particles.stress, Stress{-q, -q, -q, 0});
+  const auto dynamics = make_dynamics(scene.formulation, model);
+  std::vector<Vec2> a(model.particles.size(), Vec2::Zero());
+  dynamics->prepare();
+  dynamics->accelerations(a);
+  add_surface_loads(loads, model.particles, 0, a);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    CHECK(model.particles.mass[i] * a[i].norm() < 1e-9 * q * scene.particles.spacing);
+}
+
+TEST_CASE("a load's force is that of its traction over its stretch and over time", "[load]") {
+  Case scene = pressed_box(Arrangement::lattice, 0);
+  scene.loads[0] = {.name = "part",
+                    .from = {1.5, 4},
+                    .to = {4.5, 4},
+                    .pressure = 10e3,
+                    .pressure_to = 30e3,
+                    .traction = {2e3, 0},
+                    .traction_to = {2e3, 0},
+                    .over_time = {{1, 0}, {3, 1}}};
+  const Model model = build_model(scene);
+  const auto loads = surface_loads(scene, model);
+  CHECK(total_force(loads, 0.5).norm() == 0);
+  CHECK(total_force(loads, 2).y() == Approx(-0.5 * 20e3 * 3).epsilon(1e-9));
+  CHECK(total_force(loads, 9).x() == Approx(2e3 * 3).epsilon(1e-9));
+}
+
+TEST_CASE("a column pressed at rest has the stress and the settlement of its theory", "[load]") {
+  const double q = 30e3;
+  Case scene = pressed_box(Arrangement::surface, q);
+  scene.loading.adaptive_damping = true;
+  scene.time.courant = 0.6, scene.time.end = 2;
+  Simulation s(scene);
+  while (s.step() < s.last_step() &&
+         (s.step() < 50 || s.step() % 20 != 0 || s.unbalanced_force_ratio() > 1e-7))
+    s.advance();
+  CHECK(s.step() < s.last_step());
+  const Particles& p = s.model().particles;
+  const double m = s.model().soils[0].constrained_modulus();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    CHECK(p.stress[i].yy == Approx(-q).epsilon(2e-3));  // small strain: q / M = 0.14 %
+    CHECK(p.displacement(i).y() == Approx(-q / m * p.start[i].y()).margin(2e-3 * q / m * 4));
+  }
+}

@@ -1,0 +1,97 @@
+#include "vtk_io/run_folder/safety_files.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "solver/printable.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
+#include "vtk_io/run_folder/csv.hpp"
+
+namespace porosph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cells(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += ',';
+    append_csv_number(text, value);
+  }
+  return text;
+}
+
+/// null where there is none: no JSON number is infinite.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json strength_reduction_json(const SafetyAnswer& answer) {
+  const StrengthReduction& found = *answer.particles;
+  Json json;
+  json["stable_at"] = found.stable_at > 0 ? Json(found.stable_at) : Json(nullptr);
+  json["fails_at"] = number_or_null(found.fails_at);
+  json["displacement_at_rest"] = found.at_rest;
+  json["trials"] = found.trials.size();
+  json["wall_seconds"] = answer.particle_seconds;
+  return json;
+}
+
+Json limit_equilibrium_json(const SafetyAnswer& answer) {
+  const limit_equilibrium::CriticalSurfaces& found = *answer.limit_equilibrium;
+  Json json;
+  json["bishop"] = found.bishop.factor;
+  json["spencer"] = found.spencer ? Json(found.spencer->factor) : Json(nullptr);
+  if (found.general) json["spencer_any_shape"] = found.general->factor;
+  json["wall_seconds"] = answer.limit_equilibrium_seconds;
+  return json;
+}
+
+}  // namespace
+
+std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer) {
+  std::vector<NamedSurface> surfaces;
+  if (!answer.limit_equilibrium) return surfaces;
+  const limit_equilibrium::CriticalSurfaces& found = *answer.limit_equilibrium;
+  surfaces.push_back({"Bishop on circles", found.bishop});
+  if (found.spencer) surfaces.push_back({"Spencer on circles", *found.spencer});
+  if (found.general) surfaces.push_back({"Spencer on any shape", *found.general});
+  return surfaces;
+}
+
+std::string_view words_of(TrialEnd end) {
+  switch (end) {
+    case TrialEnd::at_rest:
+      return "at rest";
+    case TrialEnd::moved_far:
+      return "moved far";
+    case TrialEnd::not_at_rest:
+      return "not at rest";
+    case TrialEnd::broke_down:
+      return "broke down";
+  }
+  return "";
+}
+
+void write_trials(const std::filesystem::path& file, const StrengthReduction& found) {
+  std::string csv = "factor,displacement,unbalanced_force_ratio,steps,end\n";
+  for (const StrengthTrial& t : found.trials)
+    csv += cells({t.factor, t.displacement, t.unbalanced, static_cast<double>(t.steps)}) + "," +
+           std::string(words_of(t.end)) + "\n";
+  write_file(file, csv);
+}
+
+void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& answer) {
+  std::string csv = "surface,x,y\n";
+  for (const NamedSurface& named : slip_surfaces(answer))
+    for (const Point& p : named.surface.points) csv += csv_line({named.name, cells({p.x()}), cells({p.y()})});
+  write_file(file, csv);
+}
+
+void write_safety_summary(const std::filesystem::path& file, const SafetyAnswer& answer) {
+  Json json;
+  json["title"] = printable(answer.title);
+  if (answer.particles) json["strength_reduction"] = strength_reduction_json(answer);
+  if (answer.limit_equilibrium) json["limit_equilibrium"] = limit_equilibrium_json(answer);
+  write_file(file, json.dump(2) + "\n");
+}
+
+}  // namespace porosph

@@ -1,0 +1,39 @@
+// The files of a factor of safety.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "solver/reference/limit_equilibrium/search.hpp"
+#include "solver/run/strength_reduction.hpp"
+
+namespace porosph {
+
+/// What was found for a case, by the methods that were asked for.
+struct SafetyAnswer {
+  std::string title;
+  std::optional<StrengthReduction> particles;
+  std::optional<limit_equilibrium::CriticalSurfaces> limit_equilibrium;
+  double particle_seconds = 0, limit_equilibrium_seconds = 0;  ///< of wall time
+};
+
+/// A slip surface with its name: "Bishop on circles".
+struct NamedSurface {
+  std::string name;
+  limit_equilibrium::CriticalSurface surface;
+};
+std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer);
+
+/// "at rest", "moved far", ...
+std::string_view words_of(TrialEnd end);
+
+/// factor, largest displacement, unbalanced force ratio, steps and end of each trial, by the factor. Throws
+/// WriteError.
+void write_trials(const std::filesystem::path& file, const StrengthReduction& found);
+/// surface, x, y: the corners of each slip surface. Throws WriteError.
+void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& answer);
+/// Both numbers, the bracket and what they took. Throws WriteError.
+void write_safety_summary(const std::filesystem::path& file, const SafetyAnswer& answer);
+
+}  // namespace porosph
