@@ -14,10 +14,11 @@ struct SoilOutline {
 };
 
 struct Scenery {
-  std::vector<SoilOutline> soils;        ///< [m]
-  std::vector<WaterStretch> water;       ///< [m]
-  std::vector<BoundaryCase> boundaries;  ///< [m]
-  std::vector<ProbeCase> probes;         ///< [m]
+  std::vector<SoilOutline> soils;                    ///< [m]
+  std::vector<WaterStretch> water;                   ///< [m]
+  std::vector<BoundaryCase> boundaries;              ///< [m]
+  std::vector<ProbeCase> probes;                     ///< [m]
+  std::vector<std::vector<Point>> water_table = {};  ///< lines in the soil [m]
 };
 
 struct Interval {

@@ -76,7 +76,7 @@ Model build_model(const Case& case_as_drawn) {
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
-  if (scene.water.flows()) {
+  if (scene.water.mode == WaterMode::steady) {
     const auto water = std::make_shared<SteadyWater>(scene, model.particles);
     water->wet(scene, model.particles);
     model.pore_water = water;

@@ -160,7 +160,6 @@ std::vector<double> DarcyFlow::through_patches(std::span<const double> head,
   return through;
 }
 
-/// The patch whose head a particle on the outline has, or -1.
 std::vector<std::int32_t> DarcyFlow::pinning_patches(const FaceConditions& faces) const {
   std::vector<std::int32_t> patch(particles(), -1);
   for (std::size_t k = 0; k < pairs_.on_face.size(); ++k) {
