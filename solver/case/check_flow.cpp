@@ -46,8 +46,8 @@ void check_coupled(const Case& c, Issues& issues) {
     issues.push_back({"stop.unbalanced_force_ratio",
                       "is not used with water.mode = \"coupled\": the soil is at rest all the while"});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
-    if (c.soils[i].no_tension)
-      issues.push_back({fmt::format("soil[{}].no_tension", i),
+    if (c.soils[i].no_tension || c.soils[i].law != LawKind::elastic)
+      issues.push_back({fmt::format("soil[{}].{}", i, c.soils[i].no_tension ? "no_tension" : "law"),
                         "is not available with water.mode = \"coupled\": the soil must be linear elastic"});
   for (std::size_t i = 0; i < c.water.faces.size(); ++i)
     if (c.water.faces[i].kind == FaceKind::seepage)

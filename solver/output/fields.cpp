@@ -91,6 +91,8 @@ std::vector<double> flow_vectors(Simulation& s, Value value) {
 
 const Particles& particles(Simulation& s) { return s.model().particles; }
 
+const Soil& soil_of(Simulation& s, std::size_t i) { return s.model().soils[particles(s).soil[i]]; }
+
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all = {
       {particle_fields::displacement.name,
@@ -140,6 +142,18 @@ const std::vector<Reader>& readers() {
        [](Simulation& s) {
          const std::vector<Stress> exact = reference_stress(s);
          return tensors(particles(s), [&](auto i) { return particles(s).stress[i] + exact[i] * -1.0; });
+       }},
+      {particle_fields::yielding.name,
+       [](Simulation& s) {
+         constexpr double on_surface = 1 - 1e-9;
+         return scalars<double>(particles(s), [&](auto i) {
+           return soil_of(s, i).mobilised_strength(particles(s), i) > on_surface ? 1 : 0;
+         });
+       }},
+      {particle_fields::mobilised_friction.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s),
+                                [&](auto i) { return soil_of(s, i).mobilised_friction(particles(s), i); });
        }},
       {particle_fields::head.name,
        [](Simulation& s) {

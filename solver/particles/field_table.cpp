@@ -62,6 +62,8 @@ const std::vector<Field>& field_table() {
                               von_mises_stress,
                               strain,
                               excess_stress,
+                              yielding,
+                              mobilised_friction,
                               head,
                               pressure_head,
                               saturation,

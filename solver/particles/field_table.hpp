@@ -52,6 +52,11 @@ inline constexpr Field excess_stress{"ExcessStress",
                                      "effective stress in excess of theory",
                                      "sigma' less that of the case's exact solution at rest",
                                      FieldKind::symmetric};
+inline constexpr Field yielding{"Yielding", "-", "", "yielding",
+                                "1 where the stress is on the yield surface of the soil's law, or else 0"};
+inline constexpr Field mobilised_friction{
+    "MobilisedFriction", "degrees", "φ_m", "mobilised friction angle",
+    "sin(phi_m) = sin(phi) times the share of the shear strength in use; 0 in soil without friction"};
 
 inline constexpr Field head{"Head", "m", "h", "head",
                             "of the pore water: psi + y, in the case's coordinates"};

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solver/case/local_origin.hpp"
+#include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
 #include "solver/run/leapfrog.hpp"
 #include "solver/run/monitor/energy.hpp"
@@ -90,6 +91,7 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
         fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",
                     soil, changed.constrained_modulus(), old.constrained_modulus()));
   changed.add_history(model_.particles);
+  changed.start_history(model_.particles, static_cast<std::int32_t>(found - soils.begin()));
   old = std::move(changed);
 }
 
@@ -133,6 +135,8 @@ void Simulation::advance_flow() {
   accelerations_.assign(forces.begin(), forces.end());
   accelerations_valid_ = true;
 }
+
+void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
 
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;

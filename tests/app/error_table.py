@@ -139,6 +139,8 @@ ON_THE_COMMAND_LINE = [
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
+    ("a section without a line", "section run", {}),
+    ("a section beside the soil", "section run --vertical 9", {}),
 ]
 WITH_FILES = [
     ("a file in the place of the folder", "run case.toml --out file", {"file": "mine"}),

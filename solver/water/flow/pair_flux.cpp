@@ -277,8 +277,8 @@ class Builder {
       const auto partner = known.find(key(p, true));
       if (partner != known.end()) {
         const FacePair& other = *partner->second;
-        p.conductance = p_.fill[p.from] / 2 *
-                        (p.conductance / p_.fill[p.from] + other.conductance / p_.fill[other.from]);
+        p.conductance =
+            p_.fill[p.from] / 2 * (p.conductance / p_.fill[p.from] + other.conductance / p_.fill[other.from]);
         if (other.from < p.from) p.patch = other.patch, p.crossing = other.crossing;
       } else if (!std::ranges::binary_search(on_face, p.from)) {
         continue;
