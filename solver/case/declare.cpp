@@ -334,11 +334,11 @@ static void declare_coupling(Fields& f, bool used, CouplingCase& c) {
                .otherwise("spacing^2 / c_v, which water takes from one particle to the next"),
            c.first_step, above(0, longest));
   f.number(key("growth", "", "Largest ratio of a flow step to the one before it."), c.growth, between(1, 2));
-  f.number(
-      key("tolerance", "",
-          "What may be left of forces and of changes of pressure in a flow step, and its error in time, over "
-          "the largest excess pressure."),
-      c.tolerance, between(1e-6, 0.1));
+  f.number(key("tolerance", "",
+               "Of the error that a flow step makes in time, over the largest excess pressure; a tenth of it "
+               "may be "
+               "left of forces and of changes of pressure."),
+           c.tolerance, between(1e-6, 0.1));
 }
 
 void declare(Fields& f, WaterCase& c) {

@@ -27,7 +27,7 @@ struct CouplingCase {
   double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
   double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
   double growth = 1.3;          ///< largest ratio of a flow step to the one before it [-]
-  double tolerance = 0.003;     ///< of force, pressure and time error [-]
+  double tolerance = 0.001;     ///< of the error in time; a tenth of it of force and pressure [-]
 };
 
 struct RetentionCase {

@@ -49,6 +49,7 @@ class Builder {
     for (int i = 0; close() && i < corrections; ++i) correct_moments();
     fill();
     pair_up();
+    find_particles_beside_patches();
     return std::move(out_);
   }
 
@@ -287,6 +288,20 @@ class Builder {
       ++out_.face_begin[p.from + 1];
     }
     std::partial_sum(out_.face_begin.begin(), out_.face_begin.end(), out_.face_begin.begin());
+  }
+
+  void find_particles_beside_patches() {
+    std::vector<Vec2> middles;
+    for (const HydraulicPatch& patch : outline_.patches) middles.push_back(outline_.middle(patch));
+    const NeighbourList near = find_neighbours(middles, p_.position, 3 * kernel_.support());
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+      std::int32_t nearest = -1;
+      for (const std::int32_t b : near.of(i))
+        if (nearest < 0 || (p_.position[b] - middles[i]).squaredNorm() <
+                               (p_.position[nearest] - middles[i]).squaredNorm() - 1e-9 * spacing_ * spacing_)
+          nearest = b;
+      out_.beside_patch.push_back(nearest);
+    }
   }
 
   double along(int stretch, const Vec2& p) const {
