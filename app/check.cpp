@@ -49,6 +49,8 @@ double seconds_per_step(Simulation& s) {
 void print(std::string_view name, const std::string& text) { fmt::print("{:18}{}\n", name, text); }
 
 void print_water(const Case& scene) {
+  if (scene.water.mode == WaterMode::steady)
+    return print("water", fmt::format("flows steadily between {} faces", scene.water.faces.size()));
   if (!scene.water.present()) return print("water", "none");
   double whole = 0, wet = 0;
   for (const SoilCase& soil : scene.soils) {
@@ -72,6 +74,22 @@ void print_settings(const Case& scene) {
                                 "case's coordinates",
                                 origin.x(), origin.y()));
   print("formulation", std::string(motion_name(scene.formulation.motion)));
+}
+
+/// c_v = k M / gamma_w, and how long a layer of each soil takes that drains on one side (Terzaghi).
+void print_consolidation(const Simulation& s) {
+  constexpr double t50 = 0.19673, t90 = 0.84809;
+  for (std::size_t i = 0; i < s.model().soils.size(); ++i) {
+    const SoilCase& soil = s.scene().soils[i];
+    const double coefficient =
+        soil.permeability.y() * s.model().soils[i].constrained_modulus() / s.scene().water.unit_weight;
+    const double path = typical_thickness(soil), unit = path * path / coefficient;
+    print(i == 0 ? "consolidation" : "",
+          fmt::format(
+              "soil '{}': c_v = {:.4g} m2/s; half of it takes {:.3g} s and 90 % {:.3g} s where water goes "
+              "{:.3g} m to one side",
+              soil.name, coefficient, t50 * unit, t90 * unit, path));
+  }
 }
 
 std::string softening_text(const StrengthCase& c, double spacing) {
@@ -110,6 +128,7 @@ void print_model(const Simulation& s) {
   }
   print_settings(s.scene());
   print("wave speed c_p", fmt::format("{:.4g} m/s", m.wave_speed));
+  if (s.consolidation() != nullptr) return print_consolidation(s);
   print("time step",
         fmt::format("{:.4g} s, {} steps to {:g} s", s.time_step(), s.last_step(), s.scene().time.end));
 }
@@ -159,6 +178,7 @@ void tell_tried(const Case& scene) {
   warn(warnings_of(simulation.model(), scene));
   warn_of_smaller_steps(simulation);
   print_model(simulation);
+  if (simulation.consolidation() != nullptr) return;
   const double per_step = seconds_per_step(simulation);
   print_run_time(scene, static_cast<double>(simulation.model().particles.size()), per_step,
                  static_cast<double>(simulation.last_step()), "its first steps");
@@ -168,6 +188,7 @@ void tell_tried(const Case& scene) {
 void tell_large(const Case& scene, const Demand& demand) {
   print("particles", fmt::format("about {:.3g}", demand.particles));
   print_settings(scene);
+  if (scene.water.mode == WaterMode::coupled) return;
   print("time step", fmt::format("about {:.3g} s, {:.3g} steps to {:g} s", scene.time.end / demand.steps,
                                  demand.steps, scene.time.end));
   try {

@@ -31,6 +31,14 @@ void Progress::show(const Simulation& s) {
   const double steps = static_cast<double>(s.step() - first_step_);
   const double rate = steps * static_cast<double>(s.model().particles.size()) / elapsed;
   const double left = elapsed * static_cast<double>(s.last_step() - s.step()) / steps;
+  if (const Consolidation* c = s.consolidation()) {
+    const std::string line =
+        fmt::format("t = {:.6g} of {:g} s   flow step {}   {} sweeps   forces {:.1e}", s.time(),
+                    s.scene().time.end, c->counts().flow_steps, c->counts().soil_sweeps, c->unbalanced());
+    say(stderr, terminal_ ? "\r" + line + "\x1b[K" : line + "\n");
+    line_open_ = terminal_;
+    return;
+  }
   const std::string line =
       fmt::format("t = {:.4f} of {:g} s   step {} of {}   {:.2f} M particle-steps/s   {} left", s.time(),
                   s.scene().time.end, s.step(), s.last_step(), rate / 1e6, clock_text(left));

@@ -45,6 +45,16 @@ std::string tell(const Summary::Seepage& seepage) {
   return text + fmt::format(" m2/s, out of balance by {:.0e} of what enters\n", std::abs(seepage.imbalance));
 }
 
+std::string tell(const Summary::Consolidation& c) {
+  return fmt::format(
+      "{} flow steps, {} pressure solves of {:.3g} iterations, {} sweeps of the soil; "
+      "{:.4g} m2 of water have left, {:.0e} m2 are missing\n",
+      c.flow_steps, c.pressure_solves,
+      static_cast<double>(c.krylov_iterations) /
+          static_cast<double>(std::max<std::int64_t>(1, c.pressure_solves)),
+      c.soil_sweeps, c.drained, std::abs(c.imbalance));
+}
+
 std::int64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -64,12 +74,20 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.steps = s.step();
   summary.time = s.time();
   summary.time_step = s.time_step();
+  std::int64_t sweeps = s.step();
+  if (const Consolidation* c = s.consolidation()) {
+    const auto& counts = c->counts();
+    summary.steps = counts.flow_steps, sweeps = counts.soil_sweeps;
+    summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, counts.flow_steps));
+    summary.consolidation = {counts.flow_steps,  counts.pressure_solves, counts.krylov_iterations,
+                             counts.soil_sweeps, c->drained(),           c->imbalance()};
+  }
   summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
   summary.stepping_seconds = outcome.stepping_seconds;
   summary.particle_steps_per_second =
-      static_cast<double>(summary.particles * summary.steps) / outcome.stepping_seconds;
+      static_cast<double>(summary.particles * sweeps) / outcome.stepping_seconds;
   summary.peak_memory_bytes = peak_memory();
   summary.unbalanced_force_ratio =
       s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
@@ -113,6 +131,7 @@ std::string tell(const Summary& s) {
         "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
         s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
   if (s.seepage) text += tell(*s.seepage);
+  if (s.consolidation) text += tell(*s.consolidation);
   for (const auto& [name, probe] : s.probes)
     text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
                         probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);

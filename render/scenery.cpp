@@ -105,6 +105,13 @@ void draw_water_level(Canvas& canvas, const Plot& plot, const std::vector<SoilOu
   }
 }
 
+void draw_water_table(Canvas& canvas, const Plot& plot, const std::vector<Point>& table) {
+  std::vector<Pixel> line;
+  for (const Point& p : table) line.push_back(plot.at(p.x(), p.y()));
+  canvas.line(line, {.colour = white, .width = 2.6});
+  canvas.line(line, {.colour = water_blue, .width = 1.3, .dashes = {6, 4}});
+}
+
 struct Support {
   Pixel from, to;
   Pixel along, away;  ///< unit vectors; `away` points away from the soil
@@ -331,6 +338,7 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
     stretch.x_to = std::min(stretch.x_to, x_to);
     if (stretch.x_from < stretch.x_to) draw_water_level(canvas, plot, scenery.soils, stretch);
   }
+  for (const auto& table : scenery.water_table) draw_water_table(canvas, plot, table);
   for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
   for (const LoadCase& load : scenery.loads) draw_load(canvas, plot, scenery.soils, load);
   draw_probes(canvas, plot, scenery);

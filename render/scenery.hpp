@@ -28,6 +28,7 @@ struct Scenery {
   std::vector<ProbeCase> probes;         ///< [m]
   std::vector<LoadCase> loads = {};      ///< as at the end of the case
   std::vector<SceneryLine> lines = {};
+  std::vector<std::vector<Point>> water_table = {};  ///< lines in the soil [m]
 };
 
 struct Interval {

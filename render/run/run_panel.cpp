@@ -9,6 +9,7 @@
 #include "render/run/material_points.hpp"
 #include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
+#include "render/run/water_around.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/water/standing_water.hpp"
 
@@ -66,6 +67,7 @@ Scenery scenery_of(const Case& scene) {
   Scenery scenery{
       .soils = {}, .water = scene.water.stretches, .boundaries = scene.boundaries, .probes = scene.probes};
   scenery.loads = scene.loads;
+  if (scene.water.mode == WaterMode::steady) scenery.water = water_beside_faces(scene);
   for (const SoilCase& soil : scene.soils) scenery.soils.push_back({soil.polygon, soil.holes});
   return scenery;
 }
@@ -131,6 +133,9 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   if (run.scene && has(frame, "Displacement"))
     panel.particles.cells = drawn_cells(*run.scene, starts_of(frame));
   if (run.scene) panel.scenery = scenery_of(scene_at(*run.scene, frame.time));
+  if (run.scene && run.scene->water.mode == WaterMode::steady && has(frame, "PressureHead"))
+    panel.scenery.water_table = water_table(panel.particles.positions, values_of(frame, {"PressureHead", ""}),
+                                            run.scene->particles.spacing);
   if (deformation == 1) return panel;
   if (!has(frame, "Displacement"))
     throw std::runtime_error(

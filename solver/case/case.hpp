@@ -71,14 +71,15 @@ struct SoilCase {
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
   bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
                             ///< unlimited where the mean is compressive
-  Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
-  RetentionCase retention = {};
   Point velocity = Point::Zero();  ///< initial velocity [m/s]
   double angular_velocity = 0;     ///< initial, counter-clockwise about the polygon's middle [rad/s]
   double bending_velocity = 0;     ///< initial, upwards at the tip of a plate clamped at its left end, in the
                                    ///< shape of the first mode [m/s]
   LawKind law = LawKind::elastic;
   StrengthCase strength = {};
+  Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
+  double porosity = -1;                ///< n; negative: none given, 0.4 [-]
+  RetentionCase retention = {};
 };
 
 /// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.
@@ -91,7 +92,9 @@ struct WaterCase {
   std::vector<WaterStretch> stretches;  ///< at t = 0
   std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
   WaterMode mode = WaterMode::still;
-  std::vector<HydraulicFaceCase> faces;  ///< of water that flows; of those that overlap the last one holds
+  CouplingCase coupling = {};
+  std::vector<HydraulicFaceCase> faces =
+      {};  ///< of water that flows; of those that overlap the last one holds
   bool present() const { return !stretches.empty(); }  ///< it stands under a level
   bool flows() const { return mode != WaterMode::still; }
 };

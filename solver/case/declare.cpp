@@ -17,7 +17,7 @@ constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
-constexpr std::array<Names, 2> water_modes{"still", "steady"};
+constexpr std::array<Names, 3> water_modes{"still", "steady", "coupled"};
 constexpr std::array<Names, 4> face_kinds{"head", "closed", "seepage", "flux"};
 constexpr std::array<Names, 3> retention_models{"saturated", "gardner", "van_genuchten"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
@@ -268,6 +268,10 @@ void declare(Fields& f, SoilCase& c) {
                .only_if(c.permeability.x() > 0, "permeability")
                .otherwise("as permeability"),
            c.permeability.y(), above(0, most_permeable));
+  f.number(Key("porosity", "", "Part of the soil that is water, whose volume gives way with it.")
+               .only_if(c.permeability.x() > 0, "permeability")
+               .otherwise("0.4"),
+           c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
   f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
           c.retention.model != RetentionModel::saturated);
   f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
@@ -322,24 +326,50 @@ void declare(Fields& f, HydraulicFaceCase& c) {
            c.rate, between(-most_permeable, most_permeable));
 }
 
+static void declare_coupling(Fields& f, bool used, CouplingCase& c) {
+  const auto key = [&](std::string_view name, std::string_view unit, std::string_view meaning) {
+    return Key(name, unit, meaning).only_if(used, "mode = \"coupled\"");
+  };
+  bool incompressible = !(c.bulk_modulus < never);
+  double modulus = incompressible ? CouplingCase{}.bulk_modulus : c.bulk_modulus;
+  f.number_or(key("bulk_modulus", "Pa", "Of water; `incompressible`: it keeps its volume."), modulus,
+              above(0, stiffest), "incompressible", incompressible);
+  c.bulk_modulus = incompressible ? CouplingCase::incompressible : modulus;
+  f.number(key("first_step", "s", "First step of the flow.")
+               .otherwise("spacing^2 / c_v, which water takes from one particle to the next"),
+           c.first_step, above(0, longest));
+  f.number(key("growth", "", "Largest ratio of a flow step to the one before it."), c.growth, between(1, 2));
+  f.number(key("tolerance", "",
+               "Of the error that a flow step makes in time, over the largest excess pressure; a tenth of it "
+               "may be "
+               "left of forces and of changes of pressure."),
+           c.tolerance, between(1e-6, 0.1));
+}
+
 void declare(Fields& f, WaterCase& c) {
-  f.choice(Key("mode", "",
-               "`still`: the water stands under its level; `steady`: it flows steadily between the faces "
-               "[[water.face]], and the soil then comes to rest in that flow."),
-           c.mode, water_modes);
+  f.choice(
+      Key("mode", "",
+          "`still`: the water stands under its level; `steady`: it flows steadily between the faces "
+          "[[water.face]], and the soil then comes to rest in that flow; `coupled`: saturated soil under a "
+          "level gives its water away over time, at rest all the while (consolidation)."),
+      c.mode, water_modes);
   f.number(Key("unit_weight", "N/m3", "Unit weight of water."), c.unit_weight, above(0, heaviest));
-  const bool still = c.mode == WaterMode::still;
-  f.tables(
-      Key("face", "",
-          "What holds at a stretch of the outline of the soils where water flows. The whole outline must be "
-          "named; where faces overlap the later one holds.")
-          .only_if(!still, "mode = \"steady\""),
-      c.faces);
+  const bool still = c.mode == WaterMode::still, levelled = c.mode != WaterMode::steady;
+  const bool coupled = c.mode == WaterMode::coupled;
+  declare_coupling(f, coupled, c.coupling);
+  f.tables(Key("face", "",
+               "What holds at a stretch of the outline of the soils where water flows; where faces overlap "
+               "the later "
+               "one holds. With `steady` the whole outline must be named. With `coupled` nothing passes "
+               "boundaries "
+               "and the rest drains, where no face says otherwise.")
+               .only_if(c.mode != WaterMode::still, "mode = \"steady\" or \"coupled\""),
+           c.faces);
   const bool moves = !c.level_over_time.empty();
   double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
   f.number(Key("level", "m", "y of the free surface, the same everywhere.")
-               .only_if(still, "mode = \"still\"")
+               .only_if(levelled, "mode = \"still\" or \"coupled\"")
                .otherwise("see `stretches`"),
            level, between(-farthest, farthest));
   f.tables(Key("stretches", "",
@@ -353,7 +383,7 @@ void declare(Fields& f, WaterCase& c) {
               .only_if(still, "mode = \"still\"")
               .otherwise("see `level`"),
           c.level_over_time);
-  if (!still) return;
+  if (!levelled) return;
   if ((level < never) + !stretches.empty() + !c.level_over_time.empty() != 1)
     f.reject("", "needs one of 'level', 'stretches' and 'level_over_time'");
   if (!c.level_over_time.empty()) level = level_at(c, 0);

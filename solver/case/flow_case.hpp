@@ -11,6 +11,7 @@ namespace porosph {
 enum class WaterMode {
   still,   ///< it stands under its level: hydrostatic
   steady,  ///< steady seepage between the faces; the soil then carries that flow
+  coupled  ///< saturated soil gives its water away over time: consolidation
 };
 
 /// How permeability and saturation fall above the water table.
@@ -18,6 +19,15 @@ enum class RetentionModel {
   saturated,      ///< full below the water table; within one spacing above it kr falls to 0.001
   gardner,        ///< kr = Se = exp(alpha psi)
   van_genuchten,  ///< van Genuchten 1980 with Mualem's kr, m = 1 - 1/n
+};
+
+/// How flow and soil are computed together.
+struct CouplingCase {
+  static constexpr double incompressible = std::numeric_limits<double>::infinity();
+  double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
+  double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
+  double growth = 1.3;          ///< largest ratio of a flow step to the one before it [-]
+  double tolerance = 0.001;     ///< of the error in time; a tenth of it of force and pressure [-]
 };
 
 struct RetentionCase {

@@ -80,7 +80,7 @@ Model build_model(const Case& case_as_drawn) {
     model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
   }
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
-  if (scene.water.flows()) {
+  if (scene.water.mode == WaterMode::steady) {
     const auto water = std::make_shared<SteadyWater>(scene, model.particles);
     water->wet(scene, model.particles);
     model.pore_water = water;

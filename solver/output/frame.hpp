@@ -70,6 +70,13 @@ struct Summary {
     int newton_steps = 0, krylov_iterations = 0;
   };
   std::optional<Seepage> seepage;
+  /// What a coupled run took, and the water that the soil gave away.
+  struct Consolidation {
+    std::int64_t flow_steps = 0, pressure_solves = 0, krylov_iterations = 0, soil_sweeps = 0;
+    double drained = 0;    ///< [m2]
+    double imbalance = 0;  ///< lost by the particles and not drained [m2]
+  };
+  std::optional<Consolidation> consolidation;
   struct Probe {
     double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI

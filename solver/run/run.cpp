@@ -52,6 +52,7 @@ class Equilibrium {
 
 std::vector<double> history_row(const Simulation& s) {
   std::vector<double> row = {s.time()};
+  if (const Consolidation* c = s.consolidation()) row.push_back(c->drained());
   for (const Probe& probe : s.probes()) {
     const std::vector<double> values = probe.read(s.model().particles).values();
     row.insert(row.end(), values.begin(), values.end());
@@ -116,6 +117,7 @@ bool Schedule::due(std::int64_t step) const {
 
 std::vector<std::string> history_columns(const Simulation& simulation) {
   std::vector<std::string> columns = {"time"};
+  if (simulation.consolidation() != nullptr) columns.push_back("water.drained");
   for (const Probe& probe : simulation.probes())
     for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
   return columns;

@@ -75,6 +75,7 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
   clock_.dt = time_step_of(scene, model_, clock_.courant);
   clock_.last_step = std::llround(std::ceil(scene.time.end / clock_.dt * (1 - 1e-12)));
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
+  if (scene.water.mode == WaterMode::coupled) couple();
   at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     at_start_.bodies = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
@@ -93,6 +94,47 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
   changed.add_history(model_.particles);
   changed.start_history(model_.particles, static_cast<std::int32_t>(found - soils.begin()));
   old = std::move(changed);
+}
+
+/// Time is then that of the flow, whose steps end on ticks.
+void Simulation::couple() {
+  if (scene_.time.step > 0)
+    throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
+  consolidation_ =
+      std::make_unique<Consolidation>(moved(scene_, -model_.origin), model_, *dynamics_, clock_.dt);
+  clock_.last_step = std::int64_t{1} << 40;
+  clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
+}
+
+/// The next time at which something is written, as Schedule counts it.
+std::int64_t Simulation::next_tick_due() const {
+  const OutputCase& output = scene_.output;
+  std::int64_t due = clock_.last_step;
+  const auto offer = [&](double time) {
+    if (const std::int64_t tick = std::llround(time / clock_.dt); tick > clock_.step)
+      due = std::min(due, tick);
+  };
+  for (const double interval : {output.interval, output.history_interval})
+    if (interval > 0) offer((std::floor(time() / interval + 1e-9) + 1) * interval);
+  for (const double time : output.times) offer(time);
+  return due;
+}
+
+void Simulation::advance_flow() {
+  if (clock_.step >= clock_.last_step) return;
+  const std::int64_t due = next_tick_due();
+  const double until = static_cast<double>(due) * clock_.dt;
+  try {
+    const double reached = consolidation_->advance(time(), until);
+    clock_.step =
+        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
+  } catch (const std::runtime_error& failure) {
+    instability_ = Breakdown{.cause = Cause::not_at_rest, .time = time(), .message = failure.what()};
+    return;
+  }
+  const auto forces = consolidation_->accelerations();
+  accelerations_.assign(forces.begin(), forces.end());
+  accelerations_valid_ = true;
 }
 
 void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
@@ -116,7 +158,7 @@ std::span<const Vec2> Simulation::accelerations() {
 
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
-  if (clock_.step == 0) return v;
+  if (clock_.step == 0 || consolidation_) return v;
   const auto a = accelerations();
   const Kick kick = half_kick(damping(), clock_.dt);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
@@ -125,6 +167,7 @@ std::vector<Vec2> Simulation::velocities() {
 
 void Simulation::advance() {
   if (instability_) return;
+  if (consolidation_) return advance_flow();
   accelerations();
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? accelerations_ : std::vector<Vec2>();
@@ -171,6 +214,7 @@ void Simulation::visit(StateArchive& state) {
   state.value("relaxation_damping", relaxation_.damping);
   dynamics_->visit(state);
   model_.pore_water->visit(state);
+  if (consolidation_) consolidation_->visit(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;

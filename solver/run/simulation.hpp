@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/run/consolidation.hpp"
 #include "solver/run/monitor/instability.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
@@ -29,7 +30,8 @@ class Simulation {
   /// or c_u, and tension. Whatever the soils remember stays. Not part of the state that visit() saves.
   void reduce_strength(double factor);
 
-  /// One leapfrog step. Does nothing once the run has become unstable.
+  /// One leapfrog step, or one step of the flow where water and soil are coupled. Does nothing once the run
+  /// has become unstable.
   void advance();
 
   std::int64_t step() const { return clock_.step; }
@@ -41,6 +43,7 @@ class Simulation {
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
   const Dynamics& dynamics() const { return *dynamics_; }
+  const Consolidation* consolidation() const { return consolidation_.get(); }  ///< null unless coupled
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -79,6 +82,9 @@ class Simulation {
 
  private:
   void drift();
+  void couple();
+  void advance_flow();
+  std::int64_t next_tick_due() const;
   void name_breakdown(double time);
 
   struct Clock {
@@ -102,6 +108,7 @@ class Simulation {
   Case scene_;
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
+  std::unique_ptr<Consolidation> consolidation_;
   std::vector<Probe> probes_;
   Clock clock_;
   std::vector<LoadedParticles> surface_loads_;

@@ -107,3 +107,52 @@ TEST_CASE("seepage: the discharge under a sheet pile") {
            std::abs(entering(flow_of(s)) / (1e-5 * 2 * 0.5) - 1), spacing < 0.3 ? 0.03 : 0.06);
   }
 }
+
+TEST_CASE("consolidation: a fill under its own weight") {
+  // Terzaghi's series for excess pressure that grows with depth, over gamma' H; M = 12 MPa.
+  constexpr double height = 4, buoyant = 16e3 - 9810, modulus = 12e6;
+  const auto series = [](double depth, double factor, bool of_degree) {
+    double sum = 0;
+    for (int m = 0; m < 200; ++m) {
+      const double root = (2 * m + 1) * 1.5707963267948966, sign = m % 2 == 0 ? 1 : -1;
+      const double term = of_degree ? 4 / (root * root * root) : 2 / (root * root) * std::sin(root * depth);
+      sum += sign * term * std::exp(-root * root * factor);
+    }
+    return of_degree ? 1 - sum : sum;
+  };
+  Simulation s(scene("consolidation"));
+  std::vector<std::pair<double, double>> errors;  // T, error
+  const auto compare = [&](Simulation& now) {
+    if (now.time() == 0) return;
+    const double factor = now.time() * 1e-9 * modulus / 9810 / (height * height);
+    double error = 0, size = 0;
+    const Particles& p = now.model().particles;
+    for (std::size_t a = 0; a < p.size(); ++a) {
+      const double exact = series(1 - p.start[a].y() / height, factor, false);
+      const double found =
+          now.scene().water.unit_weight * now.consolidation()->head()[a] / (buoyant * height);
+      error += std::pow(found - exact, 2), size += exact * exact;
+    }
+    errors.emplace_back(factor, std::sqrt(error / size));
+  };
+  run_to_end(s, {.frame = compare, .history = {}, .progress = {}, .interrupted = {}});
+  REQUIRE(errors.size() == 4);
+  for (const auto& [factor, error] : errors)
+    expect({.name = "consolidation",
+            .settings = {},
+            .quantity = fmt::format("excess pore pressure at T = {:.3g}, relative L2", factor),
+            .reference = "Terzaghi's series, pressure growing with depth",
+            .resolution = metres(0.2)},
+           error, 0.015);
+  double lowest = 0;
+  for (std::size_t a = 0; a < s.model().particles.size(); ++a)
+    lowest = std::min(lowest, s.model().particles.displacement(a).y());
+  const double last = buoyant * height * height / (2 * modulus);
+  expect({.name = "consolidation",
+          .settings = {},
+          .quantity = "settlement at T = 0.848 over the last one",
+          .reference = "Terzaghi's degree of consolidation",
+          .resolution = metres(0.2)},
+         std::abs(-lowest / last - series(0, 0.848, true)), 0.02);
+  CHECK(std::abs(s.consolidation()->imbalance()) < 1e-8 * s.consolidation()->drained());
+}

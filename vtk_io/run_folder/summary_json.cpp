@@ -115,6 +115,13 @@ Json to_json(const Summary& summary) {
     seepage["newton_steps"] = summary.seepage->newton_steps;
     seepage["krylov_iterations"] = summary.seepage->krylov_iterations;
   }
+  if (summary.consolidation) {
+    const auto& c = *summary.consolidation;
+    Json& object = json["consolidation"];
+    object["flow_steps"] = c.flow_steps, object["pressure_solves"] = c.pressure_solves;
+    object["krylov_iterations"] = c.krylov_iterations, object["soil_sweeps"] = c.soil_sweeps;
+    put(object, "drained", c.drained), put(object, "imbalance", c.imbalance);
+  }
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -293,6 +300,12 @@ Summary summary_from(const Object& json) {
     const auto seepage = json.object("seepage");
     summary.seepage = {seepage.numbers("through_faces"), seepage.number("imbalance"),
                        seepage.integer<int>("newton_steps"), seepage.integer<int>("krylov_iterations")};
+  }
+  if (json.has("consolidation")) {
+    const auto c = json.object("consolidation");
+    const auto count = [&](const char* key) { return c.integer<std::int64_t>(key); };
+    summary.consolidation = {count("flow_steps"),  count("pressure_solves"), count("krylov_iterations"),
+                             count("soil_sweeps"), c.number("drained"),      c.number("imbalance")};
   }
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   if (json.has("warnings")) summary.warnings = json.texts("warnings");

@@ -107,6 +107,11 @@ void put_on_faces(const P4Mesh& mesh, const HydraulicOutline& outline, FlowPairs
   std::ranges::sort(on);
   on.erase(std::unique(on.begin(), on.end()), on.end());
   for (const auto& [node, patch] : on) pairs.on_face.push_back(node), pairs.patch_of_on_face.push_back(patch);
+  for (const HydraulicPatch& patch : outline.patches) {
+    const Point middle = outline.middle(patch);
+    pairs.beside_patch.push_back(std::ranges::min_element(
+        pairs.on_face, {}, [&](std::int32_t n) { return (mesh.nodes[n] - middle).squaredNorm(); })[0]);
+  }
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ Eigen::Matrix2Xd displacements(const Freedoms& freedoms, const Eigen::VectorXd& 
 }
 
 MeshWater water_of(const Case& scene, const Mesh& mesh, const P4Mesh& nodes) {
-  if (!scene.water.flows()) return {water_of_triangles(scene.water, mesh), {}, {}};
+  if (scene.water.mode != WaterMode::steady) return {water_of_triangles(scene.water, mesh), {}, {}};
   FemSeepage seepage = solve_fem_seepage(scene, mesh, nodes);
   return {{}, std::move(seepage.pore_pressure), std::move(seepage.pressure_head)};
 }

@@ -27,8 +27,9 @@ double carried_area(const Case& scene, const Particles& p, int soil) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.soil[i] != soil) continue;
     const bool wet = water.depth(p.start[i].x(), p.start[i].y()) > 0;
-    carried +=
-        p.mass[i] * scene.loading.gravity / (wet ? s.unit_weight_saturated : s.unit_weight_unsaturated);
+    carried += scene.water.flows() ? p.volume(i)
+                                   : p.mass[i] * scene.loading.gravity /
+                                         (wet ? s.unit_weight_saturated : s.unit_weight_unsaturated);
   }
   return carried / area(s);
 }

@@ -35,8 +35,8 @@ bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); 
 }  // namespace
 
 std::string_view cause_name(Cause cause) {
-  static constexpr std::array<std::string_view, 6> names = {"not finite",  "too fast",  "inverted",
-                                                            "energy gain", "separated", "beyond a wall"};
+  static constexpr std::array<std::string_view, 7> names = {
+      "not finite", "too fast", "inverted", "energy gain", "separated", "beyond a wall", "not at rest"};
   return names[static_cast<std::size_t>(cause)];
 }
 

@@ -19,6 +19,7 @@ enum class Cause {
   energy_gain,  ///< motion and strain hold energy that came from nowhere
   separated,    ///< particles have left the soil body
   beyond_wall,  ///< a particle is behind a wall that held it
+  not_at_rest,  ///< soil that is to give way slowly does not come to rest: it fails
 };
 
 /// One or two words for tables ("not finite").

@@ -11,16 +11,8 @@ DarcyFlow::DarcyFlow(FlowPairs pairs, const HydraulicOutline& outline, std::vect
       retention_(std::move(retention)),
       soil_(soil.begin(), soil.end()),
       height_(height.begin(), height.end()),
-      fed_by_patch_(outline.patches.size(), -1) {
+      fed_by_patch_(pairs_.beside_patch) {
   for (const HydraulicPatch& patch : outline.patches) patch_length_.push_back(patch.to - patch.from);
-  std::vector<double> nearest(outline.patches.size(), never);
-  const auto offer = [&](std::int32_t patch, std::int32_t particle, double distance) {
-    if (distance < nearest[patch]) nearest[patch] = distance, fed_by_patch_[patch] = particle;
-  };
-  for (const FacePair& p : pairs_.face_pairs)
-    if (p.images == 1) offer(p.patch[0], p.from, p.x.norm());
-  for (std::size_t k = 0; k < pairs_.on_face.size(); ++k)
-    offer(pairs_.patch_of_on_face[k], pairs_.on_face[k], 0);
   make_pattern();
 }
 
@@ -160,7 +152,6 @@ std::vector<double> DarcyFlow::through_patches(std::span<const double> head,
   return through;
 }
 
-/// The patch whose head a particle on the outline has, or -1.
 std::vector<std::int32_t> DarcyFlow::pinning_patches(const FaceConditions& faces) const {
   std::vector<std::int32_t> patch(particles(), -1);
   for (std::size_t k = 0; k < pairs_.on_face.size(); ++k) {

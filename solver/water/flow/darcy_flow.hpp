@@ -36,6 +36,8 @@ class DarcyFlow {
   void assemble(std::span<const double> head, const FaceConditions& faces, Slope kind, SparseRows& slope,
                 std::span<double> inflow) const;
 
+  /// The patch whose head a particle on the outline has; -1 for all others.
+  std::vector<std::int32_t> pinning_patches(const FaceConditions& faces) const;
   /// Puts particles that lie on a face with a head at that head.
   void pin(std::span<double> head, const FaceConditions& faces) const;
 
@@ -63,7 +65,6 @@ class DarcyFlow {
   template <class Use>
   void for_flows(std::size_t a, std::span<const double> head, std::span<const double> kr,
                  const FaceConditions& faces, Use&& use) const;
-  std::vector<std::int32_t> pinning_patches(const FaceConditions& faces) const;
   double drawn_from(std::size_t a, std::span<const double> head, std::span<const double> kr) const;
   std::vector<double> permeabilities(std::span<const double> head) const;
 

@@ -2,8 +2,9 @@
 
 namespace porosph {
 
-FaceConditions::FaceConditions(const HydraulicOutline& outline, const std::vector<HydraulicFaceCase>& faces)
-    : open_(outline.patches.size(), 1) {
+FaceConditions::FaceConditions(const HydraulicOutline& outline, const std::vector<HydraulicFaceCase>& faces,
+                               bool submerged)
+    : submerged_(submerged), open_(outline.patches.size(), 1) {
   for (const HydraulicPatch& patch : outline.patches) {
     Condition c;
     c.height = outline.middle(patch).y();

@@ -49,6 +49,7 @@ class Builder {
     for (int i = 0; close() && i < corrections; ++i) correct_moments();
     fill();
     pair_up();
+    find_particles_beside_patches();
     return std::move(out_);
   }
 
@@ -277,7 +278,8 @@ class Builder {
       const auto partner = known.find(key(p, true));
       if (partner != known.end()) {
         const FacePair& other = *partner->second;
-        p.conductance = (p.conductance + other.conductance) / 2;
+        p.conductance =
+            p_.fill[p.from] / 2 * (p.conductance / p_.fill[p.from] + other.conductance / p_.fill[other.from]);
         if (other.from < p.from) p.patch = other.patch, p.crossing = other.crossing;
       } else if (!std::ranges::binary_search(on_face, p.from)) {
         continue;
@@ -286,6 +288,20 @@ class Builder {
       ++out_.face_begin[p.from + 1];
     }
     std::partial_sum(out_.face_begin.begin(), out_.face_begin.end(), out_.face_begin.begin());
+  }
+
+  void find_particles_beside_patches() {
+    std::vector<Vec2> middles;
+    for (const HydraulicPatch& patch : outline_.patches) middles.push_back(outline_.middle(patch));
+    const NeighbourList near = find_neighbours(middles, p_.position, 3 * kernel_.support());
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+      std::int32_t nearest = -1;
+      for (const std::int32_t b : near.of(i))
+        if (nearest < 0 || (p_.position[b] - middles[i]).squaredNorm() <
+                               (p_.position[nearest] - middles[i]).squaredNorm() - 1e-9 * spacing_ * spacing_)
+          nearest = b;
+      out_.beside_patch.push_back(nearest);
+    }
   }
 
   double along(int stretch, const Vec2& p) const {

@@ -44,6 +44,8 @@ struct FlowPairs {
   /// Particles that lie on the outline, and the patch that they lie on.
   std::vector<std::int32_t> on_face, patch_of_on_face;
 
+  std::vector<std::int32_t> beside_patch;  ///< the particle nearest to each patch
+
   std::size_t particles() const { return volume.size(); }
 };
 

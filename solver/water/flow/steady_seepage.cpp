@@ -47,20 +47,13 @@ class Steady {
     return norm(inflow_);
   }
 
-  /// All flows between particles, as a measure of what rounding can leave.
-  double scale() const {
-    double largest = 0;
-    const auto [low, high] = std::ranges::minmax(found_.head);
-    for (const double d : slope_.diagonal) largest = std::max(largest, d);
-    return largest * std::max(high - low, 1e-12 * std::abs(high));
-  }
-
   void newton() {
     double size = assemble(DarcyFlow::Slope::newton);
     bool secant = false;
     for (int i = 0; i < most_newton; ++i) {
-      found_.left = size / scale();
-      if (!(scale() > 0) || size <= balanced * scale()) return;
+      largest_ = std::max(largest_, size);
+      found_.left = largest_ > 0 ? size / largest_ : 0;
+      if (size <= balanced * largest_) return;
       if (secant) assemble(DarcyFlow::Slope::secant);
       std::ranges::fill(change_, 0.0);
       const int most = static_cast<int>(20 * std::sqrt(static_cast<double>(flow_.particles())) + 1000);
@@ -114,6 +107,7 @@ class Steady {
   SparseRows slope_;
   std::vector<double> inflow_, change_;
   std::vector<int> flips_;
+  double largest_ = 0;  ///< imbalance that was seen [m2/s]
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ struct SteadySeepage {
   std::vector<double> head;  ///< of the particles [m]
   FaceConditions faces;      ///< seepage faces as they have been found
   int newton_steps = 0, krylov_iterations = 0;
-  double left = 0;  ///< largest inflow that remains in a particle, over all that flows in [-]
+  double left = 0;  ///< of the imbalance at the start (RMS over particles) [-]
 };
 
 /// Solves R(h) = 0 by Newton's method, and opens and closes seepage faces until water leaves through those

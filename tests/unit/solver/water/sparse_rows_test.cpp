@@ -13,7 +13,7 @@ SparseRows line(int n, double drift) {
   for (int i = 0; i < n; ++i) {
     if (i > 0) a.column.push_back(i - 1), a.value.push_back(-1 - drift);
     if (i + 1 < n) a.column.push_back(i + 1), a.value.push_back(-1 + drift);
-    a.diagonal.push_back(2.01 + 0.5 * std::sin(i));
+    a.diagonal.push_back(2.6 + 0.5 * std::sin(i));
     a.begin.push_back(static_cast<std::int32_t>(a.column.size()));
   }
   return a;

@@ -23,7 +23,7 @@ TEST_CASE("finite elements give uniform flow exactly", "[fem][water]") {
 
 TEST_CASE("particles and finite elements agree on the seepage under a weir", "[fem][water]") {
   const double half_width = GENERATE(0.3, 0.5);
-  Case scene = seepage_box(2, 1, 0.05);
+  Case scene = seepage_box(2, 1, 0.025);
   scene.water.faces.push_back(head_face({0, 1}, {1 - half_width, 1}, 3));
   scene.water.faces.push_back(head_face({1 + half_width, 1}, {2, 1}, 2));
   const Mesh mesh = mesh_rectangle(scene, 0.1);

@@ -1,0 +1,20 @@
+#include "solver/water/flow/default_faces.hpp"
+
+#include "solver/case/outline_edges.hpp"
+
+namespace porosph {
+
+std::vector<HydraulicFaceCase> faces_of_excess(const Case& scene) {
+  std::vector<HydraulicFaceCase> faces = {{.kind = FaceKind::closed}};
+  const std::vector<OutlineEdge> edges = outline_edges(scene.soils);
+  for (const OutlineEdge& edge : edges)
+    if (is_free(edge, edges, scene.boundaries, 1e-3 * scene.particles.spacing))
+      faces.push_back({.kind = FaceKind::head, .from = edge.a, .to = edge.b, .level = 0});
+  for (HydraulicFaceCase face : scene.water.faces) {
+    if (face.kind == FaceKind::head) face.level -= scene.water.stretches.front().level;
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+}  // namespace porosph
