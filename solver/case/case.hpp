@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/case/flow_case.hpp"
 #include "solver/particles/field_table.hpp"
 
 namespace porosph {
@@ -70,6 +71,8 @@ struct SoilCase {
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
   bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
                             ///< unlimited where the mean is compressive
+  Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
+  RetentionCase retention;
   Point velocity = Point::Zero();  ///< initial velocity [m/s]
   double angular_velocity = 0;     ///< initial, counter-clockwise about the polygon's middle [rad/s]
   double bending_velocity = 0;     ///< initial, upwards at the tip of a plate clamped at its left end, in the
@@ -87,7 +90,10 @@ struct WaterCase {
   double unit_weight = 9810;            ///< gamma_w [N/m3]
   std::vector<WaterStretch> stretches;  ///< at t = 0
   std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
-  bool present() const { return !stretches.empty(); }
+  WaterMode mode = WaterMode::still;
+  std::vector<HydraulicFaceCase> faces;  ///< of water that flows; of those that overlap the last one holds
+  bool present() const { return !stretches.empty(); }  ///< it stands under a level
+  bool flows() const { return mode != WaterMode::still; }
 };
 
 enum class BoundaryKind {

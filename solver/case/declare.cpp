@@ -17,6 +17,9 @@ constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
 constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
+constexpr std::array<Names, 2> water_modes{"still", "steady"};
+constexpr std::array<Names, 4> face_kinds{"head", "closed", "seepage", "flux"};
+constexpr std::array<Names, 3> retention_models{"saturated", "gardner", "van_genuchten"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 constexpr std::array<Names, 4> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca"};
 constexpr double steepest = 80;  // degrees
@@ -170,9 +173,10 @@ void declare(Fields& f, Case& c) {
       c.reference, references);
   f.table(Key("particles", "", "How particles fill the soils."), c.particles);
   f.tables(Key("soil", "", "A soil: where it is and what it is.").required(), c.soils);
-  f.table(Key("water", "",
-              "Still water, with hydrostatic pressure below its level. Without this table all is dry."),
-          c.water, c.water.present());
+  f.table(
+      Key("water", "",
+          "Water in the pores: at rest below its level, or in steady flow. Without this table all is dry."),
+      c.water, c.water.present() || c.water.flows());
   f.tables(Key("boundary", "",
                "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
                "soil; boundaries that meet do so in one line or at an angle of 45 degrees or more."),
@@ -254,6 +258,17 @@ void declare(Fields& f, SoilCase& c) {
           .only_if(c.law == LawKind::elastic, "law = \"elastic\""),
       c.no_tension);
   declare_strength(f, c.law, c.strength);
+  const double upright = c.permeability.y();
+  f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")
+               .otherwise("none"),
+           c.permeability.x(), above(0, most_permeable));
+  f.set_defaults([&] { c.permeability.y() = upright > 0 ? upright : c.permeability.x(); });
+  f.number(Key("permeability_vertical", "m/s", "The same along y, in soil that is anisotropic.")
+               .only_if(c.permeability.x() > 0, "permeability")
+               .otherwise("as permeability"),
+           c.permeability.y(), above(0, most_permeable));
+  f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
+          c.retention.model != RetentionModel::saturated);
   f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
                "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
@@ -264,22 +279,80 @@ void declare(Fields& f, SoilCase& c) {
            c.bending_velocity, between(-1e6, 1e6));
 }
 
+void declare(Fields& f, RetentionCase& c) {
+  f.choice(
+      Key("model", "",
+          "`gardner`: kr = S_e = exp(alpha psi); `van_genuchten`: his S_e with Mualem's kr; `saturated`: "
+          "kr falls from 1 at the water table to 0.001 within one spacing above it, and suction does not "
+          "act on the soil."),
+      c.model, retention_models);
+  const bool curved = c.model != RetentionModel::saturated;
+  f.number(Key("alpha", "1/m", "Of suction: the larger, the coarser the soil.")
+               .only_if(curved, "model = \"gardner\" or \"van_genuchten\""),
+           c.alpha, above(0, 1e4));
+  const bool genuchten = c.model == RetentionModel::van_genuchten;
+  f.number(Key("n", "", "Van Genuchten's n.").only_if(genuchten, "model = \"van_genuchten\""), c.n,
+           above(1, 20));
+  if (curved && !(c.alpha > 0)) f.reject("alpha", "is missing: the model needs it");
+  if (genuchten && !(c.n > 1)) f.reject("n", "is missing: the model needs it");
+}
+
+void declare(Fields& f, HydraulicFaceCase& c) {
+  f.choice(Key("kind", "",
+               "`head`: water stands at `level` beside it, and above that water may leave; `closed`: nothing "
+               "passes; `seepage`: water leaves where its pressure reaches that of the air, and none enters; "
+               "`flux`: `rate` passes.")
+               .required(),
+           c.kind, face_kinds);
+  f.point(Key("from", "m", "One end of a straight stretch of the outline; it may reach beyond it.")
+              .otherwise("the whole outline"),
+          c.from);
+  f.point(Key("to", "m", "The other end.").otherwise("the whole outline"), c.to);
+  if (c.from.allFinite() != c.to.allFinite()) f.reject("", "needs both 'from' and 'to', or none of them");
+  if (c.from.allFinite() && c.from == c.to) f.reject("to", "must differ from 'from'");
+  f.number(Key("level", "m", "y of the water beside it.")
+               .only_if(c.kind == FaceKind::head, "kind = \"head\"")
+               .otherwise("none"),
+           c.level, between(-farthest, farthest));
+  if (c.kind == FaceKind::head && !(c.level < never))
+    f.reject("level", "is missing: kind = \"head\" needs it");
+  f.number(Key("rate", "m/s", "Of water into the soil per area of the face; negative: out of it.")
+               .only_if(c.kind == FaceKind::flux, "kind = \"flux\""),
+           c.rate, between(-most_permeable, most_permeable));
+}
+
 void declare(Fields& f, WaterCase& c) {
+  f.choice(Key("mode", "",
+               "`still`: the water stands under its level; `steady`: it flows steadily between the faces "
+               "[[water.face]], and the soil then comes to rest in that flow."),
+           c.mode, water_modes);
   f.number(Key("unit_weight", "N/m3", "Unit weight of water."), c.unit_weight, above(0, heaviest));
+  const bool still = c.mode == WaterMode::still;
+  f.tables(
+      Key("face", "",
+          "What holds at a stretch of the outline of the soils where water flows. The whole outline must be "
+          "named; where faces overlap the later one holds.")
+          .only_if(!still, "mode = \"steady\""),
+      c.faces);
   const bool moves = !c.level_over_time.empty();
   double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
-  f.number(Key("level", "m", "y of the free surface, the same everywhere.").otherwise("see `stretches`"),
+  f.number(Key("level", "m", "y of the free surface, the same everywhere.")
+               .only_if(still, "mode = \"still\"")
+               .otherwise("see `stretches`"),
            level, between(-farthest, farthest));
   f.tables(Key("stretches", "",
                "A stretch of the free surface, in place of one `level`; soil outside all stretches "
-               "is dry. One that ends at an upright face of a soil presses on that face."),
+               "is dry. One that ends at an upright face of a soil presses on that face.")
+               .only_if(still, "mode = \"still\""),
            stretches);
   f.pairs(Key("level_over_time", "s, m",
               "A free surface that rises and falls, in place of one `level`: its y over time, linear between "
               "these times and constant before and after. Soil keeps the weight that it has at the start.")
+              .only_if(still, "mode = \"still\"")
               .otherwise("see `level`"),
           c.level_over_time);
+  if (!still) return;
   if ((level < never) + !stretches.empty() + !c.level_over_time.empty() != 1)
     f.reject("", "needs one of 'level', 'stretches' and 'level_over_time'");
   if (!c.level_over_time.empty()) level = level_at(c, 0);

@@ -12,6 +12,7 @@
 #include "solver/geometry/place_particles.hpp"
 #include "solver/model/initial_velocity.hpp"
 #include "solver/model/soil_law.hpp"
+#include "solver/water/steady_water.hpp"
 #include "solver/water/still_water.hpp"
 
 namespace porosph {
@@ -80,6 +81,11 @@ Model build_model(const Case& case_as_drawn) {
     model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
   }
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
+  if (scene.water.flows()) {
+    const auto water = std::make_shared<SteadyWater>(scene, model.particles);
+    water->wet(scene, model.particles);
+    model.pore_water = water;
+  }
   model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
