@@ -192,6 +192,10 @@ void declare(Fields& f, Case& c) {
   f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
   f.table(Key("time", "", "End time and time step."), c.time);
+  f.set_defaults([&] {
+    c.stop.on_separation =
+        std::ranges::all_of(c.soils, [](const SoilCase& s) { return s.law == LawKind::elastic; });
+  });
   f.table(Key("stop", "", "When a run ends before its time."), c.stop);
   f.table(Key("check", "", "What the result is held against by itself."), c.check);
   f.table(Key("output", "", "What is written, and when."), c.output);
@@ -515,7 +519,8 @@ void declare(Fields& f, TimeCase& c) {
 void declare(Fields& f, StopCase& c) {
   f.number(Key("unbalanced_force_ratio", "", "Equilibrium when the ratio has fallen below this; 0: never."),
            c.unbalanced_force_ratio, between(0, 1));
-  f.flag(Key("on_separation", "", "Whether the run is unstable once particles have left the body."),
+  f.flag(Key("on_separation", "", "Whether the run is unstable once particles have left the body.")
+             .otherwise("true, but false where a soil yields"),
          c.on_separation);
 }
 

@@ -70,7 +70,8 @@ Model build_model(const Case& case_as_drawn) {
   model.water = StandingWater(scene.water);
   model.pore_water = std::make_shared<StillWater>();
   if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
-  for (const SoilCase& s : scene.soils) model.soils.emplace_back(soil_law(s, model.spacing));
+  for (const SoilCase& s : scene.soils)
+    model.soils.emplace_back(soil_law(s, model.spacing), s.law != LawKind::elastic);
 
   model.particles = make_particles(scene, model.water, place_particles(scene));
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);

@@ -71,7 +71,7 @@ AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
 
 void reduce_strength(Model& model, const Case& scene, double factor) {
   for (std::size_t i = 0; i < model.soils.size(); ++i) {
-    Soil changed(soil_law(scene.soils[i], model.spacing, factor));
+    Soil changed(soil_law(scene.soils[i], model.spacing, factor), model.soils[i].flows());
     changed.add_history(model.particles);
     model.soils[i] = std::move(changed);
   }

@@ -244,7 +244,8 @@ void Simulation::name_breakdown(double time) {
 
 void Simulation::look_for_breakdown() {
   constexpr double met = 0.25;  // of the smallest distance at the start
-  if (!instability_) instability_ = find_crossing(model_, met * at_start_.closest, time());
+  const bool flows = std::ranges::any_of(model_.soils, &Soil::flows);  // particles meet anew all the time
+  if (!instability_ && !flows) instability_ = find_crossing(model_, met * at_start_.closest, time());
   if (!instability_) instability_ = find_beyond_wall(model_, time());
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, at_start_.bodies, time());

@@ -20,8 +20,10 @@ struct DruckerPrager : Elasticity {
   struct History {
     double plastic_strain = 0;
     double opening = 0;
+    double dilation = 0;
   };
-  static constexpr std::array<Field, 2> history{law_fields::plastic_strain, law_fields::opening};
+  static constexpr std::array<Field, 3> history{law_fields::plastic_strain, law_fields::opening,
+                                                law_fields::dilation};
 
   double alpha = 0, k = 0;  ///< of the yield surface [-], [Pa]
   double beta = 0;          ///< of the plastic potential [-]
@@ -96,6 +98,7 @@ struct DruckerPrager : Elasticity {
     const double lower = on_surface < strength ? on_surface : strength;
     const double new_root = lower > 0 ? lower : 0;
     const double scale = root > 0 ? new_root / root : 1;
+    q.dilation += (mean - returned) / bulk_modulus;
     q.opening += (returned - new_mean) / bulk_modulus - shut;
     q.plastic_strain += (root - new_root) / (shear_modulus * std::numbers::sqrt3);
     return (trial * scale).plus_isotropic(new_mean - scale * mean);

@@ -18,6 +18,12 @@ inline constexpr Field opening{
     .words = "opening",
     .meaning = "volume strain by which soil has come apart; it closes before the soil bears again",
     .kind = FieldKind::scalar};
+inline constexpr Field dilation{.name = "Dilation",
+                                .unit = "-",
+                                .symbol = "ε_vᵖ",
+                                .words = "plastic dilation",
+                                .meaning = "volume strain of plastic flow by the dilation angle",
+                                .kind = FieldKind::scalar};
 inline constexpr Field undrained_strength{.name = "UndrainedStrength",
                                           .unit = "Pa",
                                           .symbol = "c_u",

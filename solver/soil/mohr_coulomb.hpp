@@ -32,6 +32,7 @@ struct Returned {
   PrincipalStress stress;
   double plastic_strain;  ///< sqrt(2/3 de : de), e deviatoric
   double opening;         ///< volume strain at the apex
+  double dilation;        ///< volume strain of what led there
 };
 
 /// Principal stresses of an elastic step, returned to the surface along the plastic potential: to the plane,
@@ -60,6 +61,7 @@ struct Returned {
   double b1 = edge ? e1 : p1, b2 = edge ? e2 : p2, b3 = edge ? e3 : p3;
   const double mean = (b1 + b2 + b3) / 3, apex = m.apex();
   const bool at_apex = mean > apex || b1 > apex;
+  const double dilation = ((a.s1 + a.s2 + a.s3) / 3 - mean) / e.bulk_modulus;
   const double opening = at_apex ? (mean - apex) / e.bulk_modulus : 0;
   b1 = at_apex ? apex : b1, b2 = at_apex ? apex : b2, b3 = at_apex ? apex : b3;
   // Across the cut-off the soil opens along s1, until s1 and s3 are on the surface together.
@@ -73,13 +75,13 @@ struct Returned {
   const double d1 = a.s1 - b1, d2 = a.s2 - b2, d3 = a.s3 - b3, third = (d1 + d2 + d3) / 3;
   const double squared =
       (d1 - third) * (d1 - third) + (d2 - third) * (d2 - third) + (d3 - third) * (d3 - third);
-  return {{b1, b2, b3}, std::sqrt(2.0 / 3 * squared) / g2, opening};
+  return {{b1, b2, b3}, std::sqrt(2.0 / 3 * squared) / g2, opening, dilation};
 }
 
 /// The same of a stress whose zz is principal.
 struct ReturnedInPlane {
   double xx, yy, zz, xy;  ///< [Pa]
-  double plastic_strain, opening;
+  double plastic_strain, opening, dilation;
 };
 [[gnu::always_inline]] inline ReturnedInPlane returned_in_plane(double xx, double yy, double zz, double xy,
                                                                 const MohrCoulombSurface& m,
@@ -100,7 +102,8 @@ struct ReturnedInPlane {
           yields ? new_zz : zz,
           yields ? scale * xy : xy,
           yields ? r.plastic_strain : 0,
-          yields ? r.opening : 0};
+          yields ? r.opening : 0,
+          yields ? r.dilation : 0};
 }
 
 /// Largest minus smallest principal stress, halved: the radius of the largest circle [Pa]; and its middle.
@@ -120,8 +123,10 @@ struct MohrCoulomb : Elasticity {
   struct History {
     double plastic_strain = 0;
     double opening = 0;
+    double dilation = 0;
   };
-  static constexpr std::array<Field, 2> history{law_fields::plastic_strain, law_fields::opening};
+  static constexpr std::array<Field, 3> history{law_fields::plastic_strain, law_fields::opening,
+                                                law_fields::dilation};
 
   double sin_phi = 0, c_cos_phi = 0, sin_psi = 0;       ///< [-], [Pa], [-]
   double tension = std::numeric_limits<double>::max();  ///< most principal tension [Pa]
@@ -173,6 +178,7 @@ struct MohrCoulomb : Elasticity {
     const ReturnedInPlane r = returned_in_plane(trial.xx, trial.yy, trial.zz, trial.xy, surface(q), *this);
     q.plastic_strain += r.plastic_strain;
     q.opening += r.opening - shut;
+    q.dilation += r.dilation;
     return {r.xx, r.yy, r.zz, r.xy};
   }
   template <class Space>

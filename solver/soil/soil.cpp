@@ -96,6 +96,15 @@ double Soil::mobilised_strength(const Particles& p, std::size_t a) const {
                      [&](const auto& law, const auto& q) { return mobilised(law, p.stress[a], q); });
 }
 
+double Soil::plastic_dilation(const Particles& p, std::size_t a) const {
+  return of_yielding(law_, p, history_, a, [](const auto&, const auto& q) {
+    if constexpr (requires { q.dilation; })
+      return q.dilation;
+    else
+      return 0.0;
+  });
+}
+
 double Soil::mobilised_friction(const Particles& p, std::size_t a) const {
   return of_yielding(law_, p, history_, a, [&](const auto& law, const auto& q) {
     return std::asin(law.sin_friction(q) * mobilised(law, p.stress[a], q)) * 180 / std::numbers::pi;

@@ -11,13 +11,15 @@ namespace porosph {
 
 class Soil {
  public:
-  explicit Soil(AnyLaw law) : law_(std::move(law)) {}
+  /// `flows`: the soil may deform without end, which the motion equation takes care of.
+  explicit Soil(AnyLaw law, bool flows = false) : law_(std::move(law)), flows_(flows) {}
 
   const AnyLaw& law() const { return law_; }
   const Elasticity& elastic() const;
-  bool may_yield() const;                                           ///< false: its step is always elastic
-  double shear_modulus() const { return elastic().shear_modulus; }  ///< G [Pa]
-  double bulk_modulus() const { return elastic().bulk_modulus; }    ///< K [Pa]
+  bool may_yield() const;  ///< false: its step is always elastic
+  bool flows() const { return flows_; }
+  double shear_modulus() const { return elastic().shear_modulus; }                              ///< G [Pa]
+  double bulk_modulus() const { return elastic().bulk_modulus; }                                ///< K [Pa]
   double constrained_modulus() const { return elastic().constrained_modulus(); }                ///< M [Pa]
   double stored_energy(const Stress& stress) const { return elastic().stored_energy(stress); }  ///< [J/m3]
 
@@ -30,6 +32,8 @@ class Soil {
   /// Shear stress of a particle over the most that the law bears at its mean stress, at most 1; 0 in soil
   /// that bears any.
   double mobilised_strength(const Particles& particles, std::size_t a) const;
+  /// Volume strain of plastic flow, without what has opened.
+  double plastic_dilation(const Particles& particles, std::size_t a) const;
   /// Friction angle at which the particle's stress would be on the yield surface, where the cone's apex stays
   /// where it is [degrees]; 0 in soil without friction.
   double mobilised_friction(const Particles& particles, std::size_t a) const;
@@ -38,6 +42,7 @@ class Soil {
 
  private:
   AnyLaw law_;
+  bool flows_;
   std::vector<std::size_t> history_;
 };
 

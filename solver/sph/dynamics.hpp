@@ -11,6 +11,8 @@
 
 namespace porosph {
 
+class FlowingSoil;
+
 /// Spatial discretisation: from the model's state to accelerations and to strain. It refers to the model that
 /// it was made for, whose particle count must not change.
 class Dynamics {
@@ -34,6 +36,9 @@ class Dynamics {
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
   /// saving. Lists and gradients are made anew by the code that made them first. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
+
+  /// What it does where soil yields and flows, if anything.
+  virtual const FlowingSoil* flow() const { return nullptr; }
 
   /// How often neighbours were searched, kernel gradients made, and of these closed for disorder.
   struct Counts {

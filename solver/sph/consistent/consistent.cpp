@@ -32,6 +32,10 @@ void ConsistentDynamics::prepare() {
   const bool close = since_.travel > 0.05 * model_.spacing && strangers_are_near();
   const bool due = !reference_.made() || since_.strain > formulation_.refresh_strain || close;
   if (!due) return;
+  if (!reference_.made())
+    flow_ = FlowingSoil(model_, control_.viscosity);
+  else if (flow_.active())
+    flow_.settle(model_);
   rebuild_reference();
   fluxes_.take_velocities(reference_, model_.particles);
   strain_all(0);
@@ -41,14 +45,21 @@ void ConsistentDynamics::prepare() {
 
 /// For the particles where they are now, undeformed.
 void ConsistentDynamics::rebuild_reference() {
-  reference_ = make_reference(model_, formulation_);
+  FormulationCase formulation = formulation_;
+  if (flow_.has_flowed()) {  // gradients are closed, and zigzag held, in the arrangement at the start
+    formulation.closed_gradients = false;
+    if (formulation.zero_energy_stiffness < 0) formulation.zero_energy_stiffness = 0;
+  }
+  reference_ = make_reference(model_, formulation);
   counts.searches += 1;
   counts.closures += reference_.closed() ? 1 : 0;
   own_sides_ = find_own_sides(reference_, model_);
   soils_.set_own_sides(own_sides_.place);
   spring_ =
-      ZeroEnergySpring(formulation_, model_, control_.rho_c, control_.cells_are_cut, reference_, own_sides_);
-  yields_.assign(spring_.active() || !own_sides_.empty() ? model_.particles.size() : 0, 0);
+      ZeroEnergySpring(formulation, model_, control_.rho_c, control_.cells_are_cut, reference_, own_sides_);
+  const bool asked = spring_.active() || !own_sides_.empty() || flow_.active();
+  yields_.assign(asked ? model_.particles.size() : 0, 0);
+  if (flow_.active()) flow_.take(reference_, model_);
   fluxes_ = Fluxes(reference_, model_, spring_.active());
   connect_arrays();
 }
@@ -65,6 +76,12 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.control = {.viscosity = control_.viscosity,
                      .rate = spring_.of_soils().data(),
                      .bulk_length = formulation_.bulk_viscosity * model_.smoothing_length};
+  if (flow_.active())
+    arrays_.flow = {.viscosity = flow_.viscosity().data(),
+                    .shear_rate = flow_.shear_rate(),
+                    .mass = p.mass.data(),
+                    .length_squared = model_.smoothing_length * model_.smoothing_length,
+                    .weight = model_.gravity.norm() * model_.spacing};
   arrays_.gravity[0] = model_.gravity.x(), arrays_.gravity[1] = model_.gravity.y();
   fluxes_.connect(arrays_, reference_);
 }
@@ -90,21 +107,26 @@ bool ConsistentDynamics::strangers_are_near() {
 LargestChange ConsistentDynamics::strain_all(double dt) {
   arrays_.state.soils = soils_.view();
   double strain = 0, speed_squared = 0;
+  std::vector<std::pair<double, double>> of_tile(flow_.active() ? reference_.stencils.tiles() : 0);
 #pragma omp parallel for schedule(static) reduction(max : strain, speed_squared)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
     LargestChange largest;
     kernels_.strain(arrays_, tile, dt, largest);
     strain = std::max(strain, largest.strain);
     speed_squared = std::max(speed_squared, largest.speed_squared);
+    if (flow_.active()) of_tile[tile] = {largest.plastic_work, largest.viscous_work};
   }
+  for (const auto& [plastic, viscous] : of_tile) flow_.add_dissipation(plastic, viscous);
+  if (flow_.active()) flow_.leave_out_walls(reference_, model_.particles, fluxes_.flux(), fluxes_.records());
   return {strain, speed_squared};
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  fluxes_.prepare_forces(reference_, model_, spring_);
+  fluxes_.prepare_forces(reference_, model_, spring_, flow_.active() ? &flow_.viscosity() : nullptr);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
+  if (flow_.active()) flow_.leave_out_walls(reference_, model_.particles, out);
   spring_.soften_pairs(
       reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
 }
@@ -132,6 +154,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 }
 
 void ConsistentDynamics::strain(double dt) {
+  if (flow_.active()) flow_.diffuse_stress(reference_, model_, dt);
   fluxes_.take_velocities(reference_, model_.particles);
   const LargestChange largest = strain_all(dt);
   since_.strain = largest.strain;
@@ -144,6 +167,8 @@ void ConsistentDynamics::visit(StateArchive& state) {
   bool made = reference_.made();
   state.value("has_reference", made);
   if (!made) return;
+  if (state.restoring()) flow_ = FlowingSoil(model_, control_.viscosity);
+  flow_.visit(state);
   Particles& p = model_.particles;
   std::vector<Vec2> positions(p.size());
   std::vector<double> densities(p.size());

@@ -1,6 +1,7 @@
 // The consistent form: the exact adjoint of the strain rate, on a reference configuration.
 #pragma once
 
+#include "solver/sph/consistent/flowing_soil.hpp"
 #include "solver/sph/consistent/fluxes.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/dynamics.hpp"
@@ -30,6 +31,7 @@ class ConsistentDynamics final : public Dynamics {
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
   void visit(StateArchive& state) override;
+  const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
 
  private:
   void rebuild_reference();
@@ -57,6 +59,7 @@ class ConsistentDynamics final : public Dynamics {
   OwnSides own_sides_;
   ZeroEnergySpring spring_;
   Fluxes fluxes_;               ///< since the reference
+  FlowingSoil flow_;            ///< of no effect in elastic soil
   std::vector<double> yields_;  ///< of particles: as in SoilStateView; empty where nobody asks
   ConsistentArrays arrays_{};   ///< all these, as the kernels see them
   SinceReference since_;

@@ -44,15 +44,29 @@ void Fluxes::take_velocities(const ReferenceConfiguration& r, const Particles& p
 }
 
 void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
-                            const ZeroEnergySpring& spring) {
+                            const ZeroEnergySpring& spring, std::vector<double>* flow) {
   take_pressures(r, model);
+  if (flow != nullptr) take_viscosities(r, *flow);
   // Takes the velocities' place in the records until the next step, when all have been strained.
   const Particles& p = model.particles;
   if (!controlled_[0].empty())
     spread(r, controlled_,
            [&](std::size_t a) { return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p)); });
   behind_walls_.fill(r, piola_);
-  fill_ghost_fluxes(r, p.fill);
+  fill_ghost_fluxes(r, p.fill, flow == nullptr);
+}
+
+/// Images in fixed walls have none: they hold the soil by its stress.
+void Fluxes::take_viscosities(const ReferenceConfiguration& r, std::vector<double>& viscosity) {
+  const std::size_t n = r.particles();
+  viscosity.resize(r.points.size());
+  r.ghosts.for_each([&](std::size_t i) {
+    viscosity[n + i] = r.ghosts.wall(i).kind == BoundaryKind::fixed ? 0 : viscosity[r.ghosts.parent(i)];
+  });
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < viscosity.size(); ++i)
+    if (r.listed[i] || (i < n && r.stencils.stretch_of[i] == PairStencils::own_list))
+      records_[i].q[viscosity_lane] = viscosity[i];
 }
 
 void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model) {
@@ -72,12 +86,15 @@ void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model)
     if (r.listed[i]) records_[i].q[pressure_lane] = pressure_[i];
 }
 
-void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills) {
+void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills,
+                               bool fixed_walls_are_seen) {
   const std::size_t n = r.particles();
   r.ghosts.for_each([&](std::size_t i) {
     const std::size_t parent = r.ghosts.parent(i);
     const double fill = fills[r.ghosts.root(i)];
-    const Mat2 control = flux_[parent] - fill * matrix(piola_[parent]) * r.correction[parent];
+    const bool seen = fixed_walls_are_seen || r.ghosts.wall(i).kind != BoundaryKind::fixed;
+    const Mat2 control = seen ? Mat2(flux_[parent] - fill * matrix(piola_[parent]) * r.correction[parent])
+                              : Mat2(Mat2::Zero());
     const Mat2 flux = fill * matrix(piola_[n + i]) * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
     flux_.set(n + i, flux);
     if (!r.listed[n + i]) return;

@@ -24,10 +24,14 @@ class Fluxes {
   void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
   /// What the next forces need beside the flux of the particles: pore pressure, v + k * displacement for the
   /// zero-energy control, and the ghosts' P and flux.
+  /// `flow`: viscosity of the control of each particle, which grows by the ghosts'; or null.
   void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
-                      const ZeroEnergySpring& spring);
+                      const ZeroEnergySpring& spring, std::vector<double>* flow);
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
+
+  PlaneTensors& flux() { return flux_; }
+  std::vector<Record>& records() { return records_; }
 
   void connect(ConsistentArrays& arrays, const ReferenceConfiguration& reference);
   /// Saves or restores what the next step needs; ghosts have theirs made when they are needed.
@@ -38,7 +42,9 @@ class Fluxes {
   void spread(const ReferenceConfiguration& reference, std::array<std::vector<double>, 2>& field,
               Of&& of_particle);
   void take_pressures(const ReferenceConfiguration& reference, const Model& model);
-  void fill_ghost_fluxes(const ReferenceConfiguration& reference, const std::vector<double>& fill);
+  void take_viscosities(const ReferenceConfiguration& reference, std::vector<double>& viscosity);
+  void fill_ghost_fluxes(const ReferenceConfiguration& reference, const std::vector<double>& fill,
+                         bool fixed_walls_are_seen);
 
   PlaneTensors deformation_;                       ///< F, of the particles
   PlaneTensors flux_;                              ///< fill P L - mu (dF/dt + rate (F - I)) [Pa]

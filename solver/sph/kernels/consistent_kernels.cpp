@@ -71,8 +71,8 @@ void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, s
   });
 }
 
-/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, summed again, so that what
-/// is constant still has no gradient.
+/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, summed again, so that
+/// what is constant still has no gradient.
 inline PairGeometry sum_of(const PairGeometry* g, std::int64_t first, std::int64_t) { return g[first]; }
 inline PairGeometry sum_of(const SinglePairGeometry* g, std::int64_t first, std::int64_t last) {
   PairGeometry sum{0, 0, 0};
@@ -171,7 +171,12 @@ struct TileStep {
         stress(c.state.stress + 4 * tile.first),
         density(c.state.density + tile.first),
         yields(c.state.yields ? c.state.yields + tile.first : nullptr),
+        viscosity(c.flow.viscosity ? c.flow.viscosity + tile.first : nullptr),
+        shear_rate(c.flow.viscosity ? c.flow.shear_rate + tile.first : nullptr),
+        mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
         mu(c.control.viscosity),
+        length_squared(c.flow.length_squared),
+        weight(c.flow.weight),
         bulk_length(c.control.bulk_length),
         dt(step),
         half(0.5 * step) {
@@ -221,7 +226,8 @@ struct TileStep {
 
   /// P, and the flux fill P L less the zero-energy control, of the stress `s`.
   [[gnu::always_inline]] void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus,
-                                         double dilatation, const Gradient& control) const {
+                                         double dilatation, const Gradient& control,
+                                         double viscosity_of_control) const {
     const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * f.density), dilatation);
     const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
     const double pxx = txx * f.yy - s.xy * f.xy, pxy = s.xy * f.xx - txx * f.yx;
@@ -229,16 +235,31 @@ struct TileStep {
     piola[xx][i] = pxx, piola[xy][i] = pxy, piola[yx][i] = pyx, piola[yy][i] = pyy;
     const double sxx = fill[i] * correction[xx][i], sxy = fill[i] * correction[xy][i],
                  syx = fill[i] * correction[yx][i], syy = fill[i] * correction[yy][i];
-    flux[xx][i] = pxx * sxx + pxy * syx - mu * control.xx;
-    flux[xy][i] = pxx * sxy + pxy * syy - mu * control.xy;
-    flux[yx][i] = pyx * sxx + pyy * syx - mu * control.yx;
-    flux[yy][i] = pyx * sxy + pyy * syy - mu * control.yy;
+    flux[xx][i] = pxx * sxx + pxy * syx - viscosity_of_control * control.xx;
+    flux[xy][i] = pxx * sxy + pxy * syy - viscosity_of_control * control.xy;
+    flux[yx][i] = pyx * sxx + pyy * syx - viscosity_of_control * control.yx;
+    flux[yy][i] = pyx * sxy + pyy * syy - viscosity_of_control * control.yy;
+  }
+
+  /// mu of FlowView, and gamma for those who ask.
+  [[gnu::always_inline]] double bounded_viscosity(std::int32_t i, const Gradient& g, double density_now,
+                                                  double strength, double sin_phi) const {
+    const double stretch = g.xx - g.yy, slip = g.xy + g.yx;
+    const double gamma = std::sqrt(stretch * stretch + slip * slip);
+    const double least = sin_phi * density_now * weight, k = strength > least ? strength : least;
+    // As k / gamma may be too large for a number: compared as products.
+    const double inertial = density_now * length_squared * gamma;
+    const bool bounded = 0.1 * k < (mu - inertial) * gamma;
+    const double bound = 0.1 * k / (bounded ? gamma : 1) + inertial;
+    shear_rate[i] = gamma;
+    return viscosity[i] = bounded ? bound : mu;
   }
 
   std::int32_t particle;  ///< the tile's first
   const double *vx, *vy, *reference_density, *fill;
-  double *stress, *density, *yields;
-  double mu, bulk_length, dt, half;
+  double *stress, *density, *yields, *viscosity, *shear_rate;
+  const double* mass;
+  double mu, length_squared, weight, bulk_length, dt, half;
   const double *rate[4], *correction[4];
   double *piola[4], *deformation[4], *flux[4];
 };
@@ -249,28 +270,67 @@ struct TileStep {
   return off > 1e-9 * (std::abs(elastic.xx) + std::abs(elastic.yy) + std::abs(elastic.xy)) ? 1 : 0;
 }
 
+/// What a step finds out beyond stress: nothing, which particles yield, or also what flow asks for.
+enum class Watch { nothing, yielding, flow };
+
+/// Energy of a step [J/m], and what the control may have of viscosity.
+struct StepEnergy {
+  double plastic = 0, viscous = 0;
+};
+
+/// Dissipation of the law and of bulk viscosity, per volume.
+template <SoilLaw Law>
+[[gnu::always_inline]] inline StepEnergy dissipated(const Law& law, const Stress& old, const Stress& s,
+                                                    const Gradient& g, double dt, double bulk_length,
+                                                    double impedance) {
+  const double work =
+      0.5 * dt * ((old.xx + s.xx) * g.xx + (old.yy + s.yy) * g.yy + (old.xy + s.xy) * (g.xy + g.yx));
+  const double trace = g.trace();
+  return {work - law.stored_energy(s) + law.stored_energy(old),
+          dt * bulk_viscosity(bulk_length, impedance, trace) * trace};
+}
+
+/// mu of the control; the soil of a law without end keeps the common one.
+template <SoilLaw Law>
+[[gnu::always_inline]] inline double control_viscosity(const TileStep& t, std::int32_t i, const Law& law,
+                                                       const Stress& s, const typename Law::History& q,
+                                                       const Gradient& g, double density) {
+  if constexpr (YieldingLaw<Law>)
+    return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q));
+  t.shear_rate[i] = 0;
+  return t.viscosity[i] = t.mu;
+}
+
 /// Particles first to last - 1 of the tile, which have this law. `elastic`: k of the control in this soil.
-/// `watched`: writes down which of them yield.
-template <SoilLaw Law, bool watched>
+template <SoilLaw Law, Watch watch>
 LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last, const LawView& view,
                             double elastic) {
   const TileStep t = tile;  // of this function's own: nothing that is written can be part of it
   const Law law = *static_cast<const Law*>(view.law);
   double* history[history_size<Law> + 1];
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
-  double strain = 0, speed_squared = 0;
-#pragma omp simd reduction(max : strain, speed_squared)
+  double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
+#pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
   for (std::int32_t i = first; i < last; ++i) {
     const Gradient gradient = t.gradient(i);
     typename Law::History q = load_history<Law>(history, i);
     const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
-    if (watched) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
+    if (watch != Watch::nothing) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
     store_history<Law>(history, i, q);
     t.store_stress(i, s);
     const TileStep::Deformed f = t.deform(i, strain, speed_squared);
-    t.write_flux(i, s, f, law.constrained_modulus(s, q), gradient.trace(), t.controlled(i, f, elastic));
+    const double modulus = law.constrained_modulus(s, q);
+    double mu = t.mu;
+    if (watch == Watch::flow) {
+      mu = control_viscosity(t, i, law, s, q, gradient, f.density);
+      const StepEnergy lost =
+          dissipated(law, old, s, gradient, t.dt, t.bulk_length, std::sqrt(modulus * f.density));
+      const double volume = t.mass[i] / f.density;
+      plastic += volume * lost.plastic, viscous += volume * lost.viscous;
+    }
+    t.write_flux(i, s, f, modulus, gradient.trace(), t.controlled(i, f, elastic), mu);
   }
-  return {strain, speed_squared};
+  return {strain, speed_squared, plastic, viscous};
 }
 
 /// What a step at an interface does with the gradient of a particle's own side.
@@ -320,7 +380,7 @@ struct OwnSideStep {
 };
 
 /// As material_step where another soil is near. `place` of the first particle in the own sides.
-template <SoilLaw Law, bool watched>
+template <SoilLaw Law, Watch watch>
 LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, std::int32_t first,
                              std::int32_t last, const LawView& view, std::int32_t place) {
   const TileStep t = tile;
@@ -328,22 +388,32 @@ LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, st
   const Law law = *static_cast<const Law*>(view.law);
   double* history[history_size<Law> + 1];
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
-  double strain = 0, speed_squared = 0;
-#pragma omp simd reduction(max : strain, speed_squared)
+  double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
+#pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
   for (std::int32_t j = 0; j < last - first; ++j) {
     const std::int32_t i = first + j;
     const Gradient gradient = side.gradient(j, t.gradient(i));
     typename Law::History q = load_history<Law>(history, i);
     const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+    const bool watched = watch != Watch::nothing;
     const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
     if (watched) t.yields[i] = yields;
     store_history<Law>(history, i, q);
     t.store_stress(i, s);
     const TileStep::Deformed f = t.deform(i, strain, speed_squared);
-    t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, law.constrained_modulus(s, q),
-                 gradient.trace(), side.controlled(t, i, j, f));
+    const double modulus = law.constrained_modulus(s, q);
+    double mu = t.mu;
+    if (watch == Watch::flow) {
+      mu = control_viscosity(t, i, law, s, q, gradient, f.density);
+      const StepEnergy lost =
+          dissipated(law, old, s, gradient, t.dt, t.bulk_length, std::sqrt(modulus * f.density));
+      const double volume = t.mass[i] / f.density;
+      plastic += volume * lost.plastic, viscous += volume * lost.viscous;
+    }
+    t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, modulus, gradient.trace(),
+                 side.controlled(t, i, j, f), mu);
   }
-  return {strain, speed_squared};
+  return {strain, speed_squared, plastic, viscous};
 }
 
 /// Either of them for a law that is called for all particles at once; `place` < 0: no other soil is near.
@@ -378,20 +448,21 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep& tile, std
     const std::int32_t j = i - first;
     const double yields = departs(t.old_stress(i), elastic_stress[j]);
     if (t.yields) t.yields[i] = yields;
+    if (t.viscosity) t.viscosity[i] = t.mu, t.shear_rate[i] = 0;
     if (place < 0)
-      t.write_flux(i, t.old_stress(i), f, modulus, g.trace(), t.controlled(i, f, elastic));
+      t.write_flux(i, t.old_stress(i), f, modulus, g.trace(), t.controlled(i, f, elastic), t.mu);
     else
       t.write_flux(i, side.tied(j, t.old_stress(i), g, t.dt, yields), f, modulus, g.trace(),
-                   side.controlled(t, i, j, f));
+                   side.controlled(t, i, j, f), t.mu);
   }
   return {strain, speed_squared};
 }
 
-template <SoilLaw Law, bool watched>
+template <SoilLaw Law, Watch watch>
 LargestChange step_of(const ConsistentArrays& c, const TileStep& tile, std::int32_t first, std::int32_t last,
                       const LawView& law, double elastic, std::int32_t place) {
-  return place < 0 ? material_step<Law, watched>(tile, first, last, law, elastic)
-                   : interface_step<Law, watched>(c, tile, first, last, law, place);
+  return place < 0 ? material_step<Law, watch>(tile, first, last, law, elastic)
+                   : interface_step<Law, watch>(c, tile, first, last, law, place);
 }
 
 void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestChange& largest) {
@@ -408,12 +479,16 @@ void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestCh
                     change = external_step(c, step, first, last, law, elastic, place);
                   else
                     with_law(Laws{}, law.kind, [&]<class Law>() {
-                      change = step.yields && law.may_yield
-                                   ? step_of<Law, true>(c, step, first, last, law, elastic, place)
-                                   : step_of<Law, false>(c, step, first, last, law, elastic, place);
+                      const auto stepped = [&]<Watch watch>() {
+                        return step_of<Law, watch>(c, step, first, last, law, elastic, place);
+                      };
+                      change = step.viscosity                 ? stepped.template operator()<Watch::flow>()
+                               : step.yields && law.may_yield ? stepped.template operator()<Watch::yielding>()
+                                                              : stepped.template operator()<Watch::nothing>();
                     });
                   largest.strain = std::max(largest.strain, change.strain);
                   largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);
+                  largest.plastic_work += change.plastic_work, largest.viscous_work += change.viscous_work;
                 });
   const FluxView& f = c.fluxes;
   for (std::int32_t a = tile.first; a < tile.last; ++a) {
@@ -429,7 +504,8 @@ void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestCh
 enum : int { force_x, force_y, pressure_x, pressure_y };
 
 /// sum_b (P_a L_a + P_b L_b) G_ab with the zero-energy term, and sum_b (p_b - p_a) G_ab, of a stretch.
-template <bool wet>
+/// `varies`: each particle has a viscosity of its own.
+template <bool wet, bool varies>
 void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
   const PairStencils& s = *c.reference.stencils;
   const PairStencils::Stretch stretch = s.stretches[piece.stretch];
@@ -443,15 +519,23 @@ void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, st
                  *pw = wet ? c.motion.pressure + a : nullptr;
     const PairGeometry own = g[stretch.pairs];
     const double own_w = viscous * own.w;
-    Vector fx = load(qxx) * own.x, fx2 = load(qxy) * own.y, fx3 = -own_w * load(vx);
-    Vector fy = load(qyx) * own.x, fy2 = load(qyy) * own.y, fy3 = -own_w * load(vy);
+    const double* mu = varies ? c.flow.viscosity + a : nullptr;
+    Vector fx = load(qxx) * own.x, fx2 = load(qxy) * own.y, fx3{};
+    Vector fy = load(qyx) * own.x, fy2 = load(qyy) * own.y, fy3{};
+    if (!varies) fx3 = -own_w * load(vx), fy3 = -own_w * load(vy);
     Vector px{}, py{};
     if (wet) px = -own.x * load(pw), py = -own.y * load(pw);
     for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
       const std::int32_t b = offset[k];
       const double gx = g[k].x, gy = g[k].y, w = viscous * g[k].w;
-      fx += gx * load(qxx + b), fx2 += gy * load(qxy + b), fx3 += w * load(vx + b);
-      fy += gx * load(qyx + b), fy2 += gy * load(qyy + b), fy3 += w * load(vy + b);
+      fx += gx * load(qxx + b), fx2 += gy * load(qxy + b);
+      fy += gx * load(qyx + b), fy2 += gy * load(qyy + b);
+      if (varies) {
+        const Vector both = g[k].w * (load(mu) + load(mu + b));
+        fx3 += both * (load(vx + b) - load(vx)), fy3 += both * (load(vy + b) - load(vy));
+      } else {
+        fx3 += w * load(vx + b), fy3 += w * load(vy + b);
+      }
       if (wet) {
         const Vector p = load(pw + b);
         px += gx * p, py += gy * p;
@@ -463,7 +547,7 @@ void shared_sums(const ConsistentArrays& c, const PairStencils::Piece& piece, st
 }
 
 /// The same of a particle with a list of its own.
-template <class Real>
+template <bool varies, class Real>
 inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
                      std::int32_t first, Row* out) {
   const PairStencils& s = *c.reference.stencils;
@@ -472,25 +556,35 @@ inline void own_sums(const ConsistentArrays& c, const PairGeometryIn<Real>* g, s
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
   const PairGeometry sum = sum_of(g, k, last);
+  const double mu = varies ? records[a].q[viscosity_lane] : 0;
+  // The weight of a pair's velocities, for both of its viscosities where they vary.
+  const auto weight = [&](std::int64_t at, const Lanes& q) {
+    return varies ? double{g[at].w} * (mu + q[viscosity_lane]) : double{g[at].w};
+  };
   Lanes x{}, y{}, w{}, x2{}, y2{}, w2{};
+  double weights = 0;
   for (++k; k + 1 < last; k += 2) {
     const Lanes q = records[index[k]].q, q2 = records[index[k + 1]].q;
+    const double one = weight(k, q), two = weight(k + 1, q2);
     x += q * double{g[k].x}, x2 += q2 * double{g[k + 1].x};
     y += q * double{g[k].y}, y2 += q2 * double{g[k + 1].y};
-    w += q * double{g[k].w}, w2 += q2 * double{g[k + 1].w};
+    w += q * one, w2 += q2 * two;
+    if (varies) weights += one + two;
   }
   if (k < last) {
     const Lanes q = records[index[k]].q;
-    x += q * double{g[k].x}, y += q * double{g[k].y}, w += q * double{g[k].w};
+    const double one = weight(k, q);
+    x += q * double{g[k].x}, y += q * double{g[k].y}, w += q * one;
+    if (varies) weights += one;
   }
   x += x2, y += y2, w += w2;
   const Lanes own = records[a].q;
-  const double viscous = 2 * c.control.viscosity;
+  const double viscous = varies ? 1 : 2 * c.control.viscosity, sum_w = varies ? weights : sum.w;
   constexpr int v = velocity_lane, p = pressure_lane;
   *out[force_x].of(a, first) =
-      x[xx] + y[xy] + own[xx] * sum.x + own[xy] * sum.y + viscous * (w[v] - own[v] * sum.w);
+      x[xx] + y[xy] + own[xx] * sum.x + own[xy] * sum.y + viscous * (w[v] - own[v] * sum_w);
   *out[force_y].of(a, first) =
-      x[yx] + y[yy] + own[yx] * sum.x + own[yy] * sum.y + viscous * (w[v + 1] - own[v + 1] * sum.w);
+      x[yx] + y[yy] + own[yx] * sum.x + own[yy] * sum.y + viscous * (w[v + 1] - own[v + 1] * sum_w);
   *out[pressure_x].of(a, first) = x[p] - own[p] * sum.x;  // eq. (22)
   *out[pressure_y].of(a, first) = y[p] - own[p] * sum.y;
 }
@@ -519,20 +613,20 @@ void add_closing_accelerations(const ConsistentArrays& c, const TileRange& tile,
   }
 }
 
-template <bool wet>
+template <bool wet, bool varies>
 void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out) {
   const TileRange tile = range_of(*c.reference.stencils, number);
   Row sum[4];
   const bool single = !c.reference.stencils->own_single.empty();
   for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
     if (piece->stretch != PairStencils::own_list)
-      shared_sums<wet>(c, *piece, tile.first, sum);
+      shared_sums<wet, varies>(c, *piece, tile.first, sum);
     else if (single)
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_sums(c, c.reference.stencils->own_single.data(), a, tile.first, sum);
+        own_sums<varies>(c, c.reference.stencils->own_single.data(), a, tile.first, sum);
     else
       for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_sums(c, c.reference.stencils->own.data(), a, tile.first, sum);
+        own_sums<varies>(c, c.reference.stencils->own.data(), a, tile.first, sum);
   }
   const std::int32_t first = tile.first, count = tile.last - tile.first;
   const double *fxx = c.state.deformation[xx] + first, *fxy = c.state.deformation[xy] + first;
@@ -558,7 +652,11 @@ void accelerate_tile(const ConsistentArrays& c, std::int32_t number, double* out
 }
 
 void accelerate(const ConsistentArrays& c, std::int32_t tile, double* out) {
-  c.motion.pressure ? accelerate_tile<true>(c, tile, out) : accelerate_tile<false>(c, tile, out);
+  const auto with = [&]<bool varies>() {
+    c.motion.pressure ? accelerate_tile<true, varies>(c, tile, out)
+                      : accelerate_tile<false, varies>(c, tile, out);
+  };
+  c.flow.viscosity ? with.template operator()<true>() : with.template operator()<false>();
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 
 namespace porosph {
 
-constexpr int pressure_lane = 4, velocity_lane = 6;  ///< of a record; the flux comes first
+/// Of a record; the flux comes first.
+constexpr int pressure_lane = 4, viscosity_lane = 5, velocity_lane = 6;
 
 // Arrays are per particle unless they say "and ghost": those go on with the ghosts. Tensors of the plane come
 // as xx, xy, yx, yy.
@@ -67,19 +68,33 @@ struct StabilisationView {
   double bulk_length;  ///< bulk viscosity's strength times h [m]
 };
 
+/// Where soil flows: the zero-energy control that its strength bounds,
+///   mu = min(viscosity, 0.1 k / gamma + rho h^2 gamma),
+/// k the shear strength, at least that under a spacing of soil, gamma the shear rate. All null or 0 where no
+/// soil flows: mu is then the same everywhere.
+struct FlowView {
+  double* viscosity;      ///< mu, and ghost [Pa s]
+  double* shear_rate;     ///< gamma [1/s]
+  const double* mass;     ///< [kg/m]
+  double length_squared;  ///< h^2 [m2]
+  double weight;          ///< g dx [m2/s2]
+};
+
 struct ConsistentArrays {
   ReferenceView reference;
   MotionView motion;
   SoilStateView state;
   FluxView fluxes;
   StabilisationView control;
+  FlowView flow;
   double gravity[2];  ///< [m/s2]
 };
 
 /// What the loops find out on their way.
 struct LargestChange {
-  double strain = 0;         ///< |F - I|
-  double speed_squared = 0;  ///< [m2/s2]
+  double strain = 0;                          ///< |F - I|
+  double speed_squared = 0;                   ///< [m2/s2]
+  double plastic_work = 0, viscous_work = 0;  ///< sums, dissipated where soil flows [J/m]
 };
 
 /// One tile of particles each.

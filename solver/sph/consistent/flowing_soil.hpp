@@ -1,0 +1,75 @@
+// What soil that yields needs in large deformation beyond the sums of elastic soil: see docs/theory.md.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/particles/state.hpp"
+#include "solver/sph/consistent/reference.hpp"
+
+namespace porosph {
+
+/// Elastic soil has none of it: active() is false where no soil of the case yields.
+///
+/// The volume of soil that has come apart is not what its deformation says but what its law does, so each
+/// new reference takes the density from the stress. Particles that have come too close are moved apart. A
+/// part of the stress that alternates from particle to particle is diffused while the soil shears, before
+/// the law returns it to its surface. And the zero-energy control is bounded by the strength of the soil.
+class FlowingSoil {
+ public:
+  FlowingSoil() = default;
+  FlowingSoil(const Model& model, double control_viscosity);
+
+  bool active() const { return !rest_density_.empty(); }
+  bool has_flowed() const { return has_flowed_; }  ///< since the start a reference has been rebuilt
+
+  /// Before a reference is rebuilt: density by the law, and particles moved to even out their arrangement.
+  void settle(Model& model);
+  /// After that: what sums over the soil alone need.
+  void take(const ReferenceConfiguration& reference, const Model& model);
+
+  /// Diffuses over a step dt [s] what of the stress is not linear, with D = 10 h^2 times the shear rate.
+  void diffuse_stress(const ReferenceConfiguration& reference, Model& model, double dt);
+
+  /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
+  /// particle, after a step ...
+  void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
+                       PlaneTensors& flux, std::vector<Record>& records) const;
+  /// ... and takes the walls' pairs out of the accelerations [m/s2]. A particle with hardly a neighbour is
+  /// held by the wall alone: it keeps them.
+  void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
+                       std::span<Vec2> accelerations) const;
+
+  std::vector<double>& viscosity() { return viscosity_; }  ///< mu of the control [Pa s]; and ghost
+  double* shear_rate() { return shear_rate_.data(); }      ///< of the last step, per particle [1/s]
+
+  /// Energy since the start [J/m].
+  struct Work {
+    double plastic = 0;    ///< dissipated by the laws
+    double viscous = 0;    ///< by bulk viscosity
+    double diffusion = 0;  ///< lost from the elastic energy by the diffusion of stress
+    double shift = 0;      ///< gravity's energy gained by moving particles
+  };
+  const Work& work() const { return work_; }
+  void add_dissipation(double plastic, double viscous) { work_.plastic += plastic, work_.viscous += viscous; }
+
+  void visit(StateArchive& state);
+
+ private:
+  void update_density(Model& model) const;
+  void even_out(Model& model);
+  Mat2 own_gradient(const ReferenceConfiguration& reference, const Particles& particles,
+                    std::int32_t a) const;
+  Mat2 gradient_with_walls(const ReferenceConfiguration& reference, const Particles& particles,
+                           std::int32_t a) const;
+
+  std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
+  std::vector<double> viscosity_, shear_rate_;
+  std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
+  std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
+  std::vector<std::uint8_t> blind_;     ///< to those
+  bool has_flowed_ = false;
+  Work work_;
+};
+
+}  // namespace porosph

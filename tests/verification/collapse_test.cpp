@@ -1,0 +1,67 @@
+// A column of soil that collapses and comes to rest.
+#include <catch2/catch.hpp>
+
+#include "solver/run/simulation.hpp"
+#include "solver/sph/consistent/flowing_soil.hpp"
+#include "tests/box_of_soil.hpp"
+#include "tests/verification/verification.hpp"
+
+using namespace porosph;
+
+namespace {
+
+/// The aluminium bars of Bui et al. (2008): 20 cm x 10 cm, friction 19.8 degrees, on a fixed base.
+Case column(double spacing, double stiffness) {
+  Case scene = box_of_soil(2, 2, spacing);
+  SoilCase& soil = scene.soils[0];
+  soil.polygon = box_outline(0, 0, 0.2, 0.1);
+  soil.youngs_modulus = stiffness, soil.poissons_ratio = 0.3;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated = 20.4e3;
+  soil.law = LawKind::drucker_prager;
+  soil.strength.friction_angle = 19.8;
+  add_wall(scene, BoundaryKind::fixed, {0, 0}, {0.7, 0});
+  add_wall(scene, BoundaryKind::roller, {0, 0}, {0, 0.12});
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.formulation.zero_energy_control = 0.1;
+  scene.stop.on_separation = false;
+  scene.time.courant = 0.8, scene.time.end = 1.2;
+  return scene;
+}
+
+struct Deposit {
+  double quantile95 = 0, mean = 0, lowest = 0, kinetic = 0, drop = 0, control = 0;
+};
+
+Deposit deposit(const Case& scene) {
+  Simulation simulation(scene);
+  const Simulation::Energy before = simulation.energy();
+  while (simulation.step() < simulation.last_step() && !simulation.instability()) simulation.advance();
+  REQUIRE_FALSE(simulation.instability());
+  const Simulation::Energy after = simulation.energy();
+  const FlowingSoil::Work work = simulation.dynamics().flow()->work();
+  const Particles& p = simulation.model().particles;
+  Deposit d{.kinetic = after.kinetic, .drop = before.gravity - after.gravity};
+  d.control = before.total() - after.total() - work.plastic - work.viscous - work.diffusion + work.shift;
+  std::vector<double> x;
+  d.lowest = never;
+  for (const Vec2& at : p.position) {
+    x.push_back(at.x()), d.lowest = std::min(d.lowest, at.y());
+    d.mean += at.x() / static_cast<double>(p.size());
+  }
+  std::sort(x.begin(), x.end());
+  d.quantile95 = x[x.size() * 95 / 100];
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("a column collapses, comes to rest, and the control takes little of its energy", "[collapse]") {
+  const Deposit d = deposit(column(0.1 / 15, 0.84e6));
+  CAPTURE(d.quantile95, d.mean, d.kinetic, d.drop, d.control, d.lowest);
+  CHECK(d.lowest > 0);
+  CHECK(d.kinetic < 1e-3 * d.drop);
+  CHECK(d.control > 0);
+  CHECK(d.control < 0.2 * d.drop);
+  CHECK(d.quantile95 > 0.32);
+  CHECK(d.quantile95 < 0.38);
+}
