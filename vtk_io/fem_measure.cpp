@@ -8,7 +8,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/solve.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 namespace porosph {

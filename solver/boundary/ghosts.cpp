@@ -6,9 +6,8 @@ Ghosts::Ghosts(std::span<const Wall> walls, std::size_t first, std::size_t last,
                std::vector<Vec2>& points)
     : walls_(walls), particles_(points.size()) {
   for (const Wall& wall : walls) {
-    const Mat2 r = wall.reflection();
-    reflection_.push_back(r);
-    motion_.push_back(wall.kind == BoundaryKind::fixed ? Mat2(-Mat2::Identity()) : r);
+    reflection_.push_back(wall.reflection());
+    motion_.push_back(wall.support().mirrored_motion(wall.normal));
   }
   append_images(walls, first, last, range, points, images_);
   root_ = roots(images_, particles_);

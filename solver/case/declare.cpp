@@ -5,7 +5,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/outline_edges.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {

@@ -12,7 +12,7 @@
 #include "solver/geometry/moments.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/soil/elasticity.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
@@ -188,7 +188,7 @@ Settlement settlement_by_own_weight(const Case& scene) {
   double left = never, right = -never;
   for (const SoilCase& soil : scene.soils)
     for (const Point& p : soil.polygon) left = std::min(left, p.x()), right = std::max(right, p.x());
-  const Water water(scene.water);
+  const StandingWater water(scene.water);
   for (int k = 0; k < vertical_lines; ++k) {
     const double x = left + (right - left) * (k + 0.5) / vertical_lines;
     const double level = water.depth(x, 0);

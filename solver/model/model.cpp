@@ -6,22 +6,24 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/boundary/water_face.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
 #include "solver/model/initial_velocity.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 namespace {
 
 /// Of a site that the water level may pass through, as if it were a square [N/m3].
-double unit_weight(const SoilCase& soil, const Water& water, const Site& site) {
+double unit_weight(const SoilCase& soil, const StandingWater& water, const Site& site) {
   const double depth = water.depth(site.position.x(), site.position.y());
   const double wet = std::clamp(0.5 + depth / std::sqrt(site.area), 0.0, 1.0);
   return wet * soil.unit_weight_saturated + (1 - wet) * soil.unit_weight_unsaturated;
 }
 
-Particles make_particles(const Case& scene, const Water& water, const std::vector<Site>& sites) {
+Particles make_particles(const Case& scene, const StandingWater& water, const std::vector<Site>& sites) {
   Particles p;
   for (const Site& site : sites) {
     const SoilCase& soil = scene.soils[site.soil];
@@ -63,7 +65,8 @@ Model build_model(const Case& case_as_drawn) {
   const Case scene = moved(case_as_drawn, -model.origin);
   model.spacing = scene.particles.spacing;
   model.smoothing_length = scene.smoothing_length();
-  model.water = Water(scene.water);
+  model.water = StandingWater(scene.water);
+  model.pore_water = std::make_shared<StillWater>();
   if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
   for (const SoilCase& s : scene.soils)
     model.soils.emplace_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
@@ -79,7 +82,7 @@ Model build_model(const Case& case_as_drawn) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
-  model.water_faces = water_faces(scene, model.particles, 2 * model.smoothing_length);
+  model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);
   model.usual_cause = usual_cause_of_breakdown(scene);
   return model;
 }

@@ -90,7 +90,7 @@ Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_
   const Vec2 way = r.points[r.ghosts.particles() + i] - r.points[a];
   const Mat2 stress = root + along_x * way.x() + along_y * way.y();
   const Wall& wall = r.ghosts.wall(i);
-  if (wall.kind != BoundaryKind::roller) return stress;
+  if (wall.support().carries_shear()) return stress;
   const Mat2 across = wall.normal * wall.normal.transpose(), along = Mat2::Identity() - across;
   const Mat2 mirrored = r.ghosts.mirrored<Mirrors::tensor>(i, root);
   return across * stress * across + along * stress * along + across * mirrored * along +
