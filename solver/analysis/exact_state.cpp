@@ -4,7 +4,7 @@
 #include "solver/reference/exact/conventional_column.hpp"
 #include "solver/reference/exact/finite_strain_column.hpp"
 #include "solver/run/reference_errors.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 
@@ -14,7 +14,7 @@ std::optional<Frame> exact_state(const Case& scene, const std::vector<Point>& st
   const FiniteStrainColumn exact = scene.reference == Reference::conventional_column
                                        ? conventional_column(column)
                                        : FiniteStrainColumn(column);
-  const Water water(at_rest_from(scene.water, scene.time.end));
+  const StandingWater water(at_rest_from(scene.water, scene.time.end));
   std::vector<double> stress, displacement, pressure;
   Frame frame;
   for (const Point& start : starts) {
@@ -28,7 +28,7 @@ std::optional<Frame> exact_state(const Case& scene, const std::vector<Point>& st
   frame.fields = {{"EffectiveStress", component_names(FieldKind::symmetric), std::move(stress)},
                   {"Displacement", component_names(FieldKind::vector), std::move(displacement)},
                   {"PorePressure", {}, std::move(pressure)}};
-  if (water.present()) add_head(frame, water.unit_weight());
+  if (water.present()) add_water_unit_weight(frame, water.unit_weight());
   return frame;
 }
 
