@@ -11,6 +11,8 @@
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
 #include "solver/model/initial_velocity.hpp"
+#include "solver/model/soil_law.hpp"
+#include "solver/water/steady_water.hpp"
 #include "solver/water/still_water.hpp"
 
 namespace porosph {
@@ -68,13 +70,21 @@ Model build_model(const Case& case_as_drawn) {
   model.water = StandingWater(scene.water);
   model.pore_water = std::make_shared<StillWater>();
   if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
-  for (const SoilCase& s : scene.soils)
-    model.soils.emplace_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
+  for (const SoilCase& s : scene.soils) model.soils.emplace_back(soil_law(s, model.spacing));
 
   model.particles = make_particles(scene, model.water, place_particles(scene));
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
+  for (std::size_t i = 0; i < model.soils.size(); ++i) {
+    model.soils[i].add_history(model.particles);
+    model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
+  }
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
+  if (scene.water.flows()) {
+    const auto water = std::make_shared<SteadyWater>(scene, model.particles);
+    water->wet(scene, model.particles);
+    model.pore_water = water;
+  }
   model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
 #include "solver/run/leapfrog.hpp"
 #include "solver/run/monitor/energy.hpp"
@@ -88,8 +89,11 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
         fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",
                     soil, changed.constrained_modulus(), old.constrained_modulus()));
   changed.add_history(model_.particles);
+  changed.start_history(model_.particles, static_cast<std::int32_t>(found - soils.begin()));
   old = std::move(changed);
 }
+
+void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
 
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;

@@ -24,6 +24,9 @@ class Simulation {
   /// Gives a soil another law, before the first step. Throws std::invalid_argument where no soil has that
   /// name, or where the law is stiffer than the soil that sets the time step.
   void set_law(const std::string& soil, AnyLaw law);
+  /// Divides the strength that the case gives its soils by `factor`, from the next step on: c and tan(phi),
+  /// or c_u, and tension. Whatever the soils remember stays. Not part of the state that visit() saves.
+  void reduce_strength(double factor);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();

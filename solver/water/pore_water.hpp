@@ -7,6 +7,7 @@
 #include "solver/boundary/ghosts.hpp"
 #include "solver/particles/particles.hpp"
 #include "solver/particles/state.hpp"
+#include "solver/water/flow/flow_record.hpp"
 #include "solver/water/standing_water.hpp"
 
 namespace porosph {
@@ -34,6 +35,9 @@ class PoreWater {
   /// p_w at the ghosts, which stand at `places` now. `pressure` is of particles, then ghosts [Pa].
   virtual void fill_ghosts(const StandingWater& standing, const Particles& particles, const Ghosts& ghosts,
                            std::span<const Vec2> places, std::span<double> pressure) const = 0;
+
+  /// How the water flows; nothing where it stands.
+  virtual const FlowRecord* record() const { return nullptr; }
 
   /// Saves or restores what is kept from step to step, particles apart. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
