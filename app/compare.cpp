@@ -8,6 +8,7 @@
 #include "app/field_help.hpp"
 #include "app/left_out.hpp"
 #include "app/numbers.hpp"
+#include "app/picture_options.hpp"
 #include "app/range.hpp"
 #include "render/report/comparison.hpp"
 #include "render/run/frame_pair.hpp"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> runs, labels, fields, left_out;
-  std::string fem, out, time, range, difference_range;
+  std::string fem, out, time, range, difference_range, style;
   double deformation = 1;
   bool different_times = false;
 };
@@ -48,6 +49,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
                "of the runs' colours, in the unit of the colour bar (default: all values, rounded)")(
       "difference-range", po::value(&o.difference_range)->value_name("LOW,HIGH"),
       "of the differences' colours, in the unit of the bar (default: each picture's own)")(
+      "style", po::value(&o.style)->value_name("particles|bands|isolines")->default_value("particles"),
+      "each particle in its colour, bands of colour with labelled isolines, or isolines on the particles")(
       "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
       "displacements are drawn this many times")(
       "out", po::value(&o.out)->value_name("DIR")->default_value("results/compare"),
@@ -88,6 +91,7 @@ int compare_command(const Arguments& arguments) {
   if (!o) return Exit::done;
   ComparisonChoice choice{.pictures = {},
                           .deformation = o->deformation,
+                          .style = read_style(o->style),
                           .range = read_range("--range", o->range),
                           .difference_range = read_range("--difference-range", o->difference_range),
                           .left_out = read_left_out(o->left_out)};

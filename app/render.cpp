@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/field_help.hpp"
 #include "app/numbers.hpp"
+#include "app/picture_options.hpp"
 #include "app/range.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/shown_field.hpp"
@@ -21,8 +22,9 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string series, label, field, time, out, range, map;
-  double deformation = 1;
+  std::string series, label, field, time, out, range, map, style, arrows;
+  bool crosses = false;
+  double deformation = 1, rate = 10;
   int width = 0, height = 0;
 };
 
@@ -36,7 +38,16 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "label", po::value(&o.label)->value_name("TEXT"),
       "what to call the run in the picture (default: nothing)")(
       "out", po::value(&o.out)->value_name("FILE.png"),
-      "the picture (default: beside the series, named by the field)")(
+      "the picture: .png, .svg or .pdf, or with --time all a film: .webp (default: PNG beside the series, "
+      "named by the "
+      "field)")("rate", po::value(&o.rate)->value_name("N")->default_value(10),
+                "pictures per second of a film")(
+      "style", po::value(&o.style)->value_name("particles|bands|isolines")->default_value("particles"),
+      "each particle in its colour, bands of colour with labelled isolines, or isolines on the particles")(
+      "arrows", po::value(&o.arrows)->value_name("NAME"),
+      "arrows of a vector on top: Displacement or Velocity")(
+      "crosses", po::bool_switch(&o.crosses),
+      "principal effective stresses on top: blue in compression, red in tension")(
       "range", po::value(&o.range)->value_name("LOW,HIGH"),
       "of the colours, in the unit of the colour bar (default: all values, rounded)")(
       "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
@@ -52,13 +63,19 @@ std::optional<Options> read_options(const Arguments& arguments) {
           arguments, options, positional, "render SERIES.pvd --field NAME[:COMPONENT] [options]",
           "  porosph render results/foundation --field TotalStress:YY\n"
           "  porosph render results/foundation/particles.pvd --field Displacement --deform 20 --out u.png\n"
-          "  porosph render results/foundation --field EffectiveStress:YY --time all --range -110,0\n",
+          "  porosph render results/foundation --field EffectiveStress:YY --time all --range -110,0\n"
+          "  porosph render results/foundation --field MobilisedFriction --style bands --crosses --out "
+          "friction.svg\n",
           values))
     return std::nullopt;
   for (const auto& [name, size] : {std::pair{"width", o.width}, std::pair{"height", o.height}})
     if (values.count(name) > 0 && (size < 200 || size > 8000))
       throw UsageError(fmt::format("--{} = {}: must be from 200 to 8000 pixels", name, size));
   if (!std::isfinite(o.deformation)) throw UsageError("--deform must be a finite number");
+  if (!(o.rate >= 0.1 && o.rate <= 60))
+    throw UsageError(fmt::format("--rate = {:g}: must be from 0.1 to 60 pictures per second", o.rate));
+  if (fs::path(o.out).extension() == ".webp" && o.time != "all")
+    throw UsageError(fmt::format("--out = {}: a film needs --time all", o.out));
   return o;
 }
 
@@ -81,27 +98,74 @@ std::vector<std::size_t> choose_frames(const Series& series, const std::string& 
 fs::path picture_path(const Options& o, const FinishedRun& run, const FieldSelection& selection,
                       std::size_t frame) {
   fs::path path = o.out.empty() ? run.folder / (file_name(selection.text()) + ".png") : fs::path(o.out);
-  if (path.extension() != ".png")
-    throw UsageError(fmt::format("--out = {}: the name must end in .png", o.out));
-  if (o.time == "all") path.replace_filename(fmt::format("{}_{:06}.png", path.stem().string(), frame));
+  require_picture_name(path);
+  if (o.time == "all")
+    path.replace_filename(fmt::format("{}_{:06}{}", path.stem().string(), frame, path.extension().string()));
   return path;
 }
+
+bool is_film(const Options& o) { return fs::path(o.out).extension() == ".webp"; }
 
 /// What the frames to be drawn span: all of it, and what the range of colours is made of.
 struct Spread {
   double largest = 0;  ///< absolute
   std::vector<ValueRange> extents;
+  std::vector<Point> corners;  ///< of boxes around the particles [m]
 };
+
+/// Two corners of the box around a frame's particles, of those that have not flown further than half the size
+/// of the soil.
+std::vector<Point> corners_of(const FinishedRun& run, const Frame& frame) {
+  Point from = Point::Constant(-never), to = Point::Constant(never);
+  if (run.scene) {
+    Point low = Point::Constant(never), high = Point::Constant(-never);
+    for (const SoilCase& soil : run.scene->soils)
+      for (const Point& p : soil.polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double reach = 0.5 * (high - low).maxCoeff();
+    from = low - Point::Constant(reach), to = high + Point::Constant(reach);
+  }
+  Point low = Point::Constant(never), high = Point::Constant(-never);
+  for (std::size_t i = 0; i < frame.points.size(); i += 3) {
+    const Point p(frame.points[i], frame.points[i + 1]);
+    if ((p.array() > from.array()).all() && (p.array() < to.array()).all())
+      low = low.cwiseMin(p), high = high.cwiseMax(p);
+  }
+  return low.allFinite() && high.allFinite() ? std::vector<Point>{low, high} : std::vector<Point>{};
+}
 
 Spread spread_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
                  const FieldSelection& selection) {
   Spread spread;
   for (std::size_t frame : frames) {
-    const std::vector<double> values = values_of(frame_of(run, frame), selection);
+    const Frame read = frame_of(run, frame);
+    const std::vector<double> values = values_of(read, selection);
+    for (const Point& corner : corners_of(run, read)) spread.corners.push_back(corner);
     spread.largest = std::max(spread.largest, largest_of(values));
     spread.extents.push_back(robust_extent(values));
   }
   return spread;
+}
+
+/// Adds what is drawn on top, and says so in the subtitle.
+void add_marks(ContourPanel& panel, const Frame& frame, const Options& o) {
+  if (!o.arrows.empty()) {
+    const auto x = values_of(frame, {o.arrows, "X"}), y = values_of(frame, {o.arrows, "Y"});
+    double largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      panel.arrows.push_back({x[i], y[i]});
+      largest = std::max(largest, std::hypot(x[i], y[i]));
+    }
+    const ShownUnit unit = shown_unit(o.arrows, largest);
+    panel.subtitle += fmt::format(", arrows: {} up to {:.3g} {}", name_in_sentence({o.arrows, ""}),
+                                  largest * unit.factor, unit.name);
+  }
+  if (o.crosses) {
+    const auto xx = values_of(frame, {"EffectiveStress", "XX"}),
+               yy = values_of(frame, {"EffectiveStress", "YY"}),
+               xy = values_of(frame, {"EffectiveStress", "XY"});
+    for (std::size_t i = 0; i < xx.size(); ++i) panel.crosses.push_back({xx[i], yy[i], 0, xy[i]});
+    panel.subtitle += ", crosses: principal effective stress, tension red";
+  }
 }
 
 }  // namespace
@@ -110,6 +174,9 @@ int render_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
   const FieldSelection selection = parse_selection(o->field);
+  const FieldStyle style = read_style(o->style);
+  if (!o->arrows.empty() && o->arrows != "Displacement" && o->arrows != "Velocity")
+    throw UsageError(fmt::format("--arrows = {}: must be Displacement or Velocity", o->arrows));
   FinishedRun run = open_run(o->series);
   if (!o->label.empty()) run.label = o->label;
   const std::vector<std::size_t> frames = choose_frames(run.series, o->time);
@@ -119,22 +186,41 @@ int render_command(const Arguments& arguments) {
   ColourScale scale = scale_of(selection, unit, run.scene, read_range("--range", o->range));
   scale.map = read_map(o->map, selection);
   if (!scale.range) scale.range = range_of_instants(spread.extents, scale.map);
-  for (std::size_t i : frames) {
+  const auto figure_of = [&](std::size_t i) {
     const Frame frame = frame_of(run, i);
     ContourPanel panel =
-        panel_of(run, frame, scaled(values_of(frame, selection), unit.factor), o->deformation);
+        panel_of(run, frame, scaled(values_of(frame, selection), unit.factor), o->deformation, style);
     panel.title = shown_name(selection) + (run.label.empty() ? "" : ", " + run.label);
     panel.subtitle = panel_subtitle(run, run.series.frames[i].time, run.label);
     if (o->deformation != 1) panel.subtitle += fmt::format(", displacements × {:g}", o->deformation);
+    add_marks(panel, frame, *o);
+    return ContourFigure{.title = run.scene ? run.scene->title : "",
+                         .panels = {std::move(panel)},
+                         .scale = scale,
+                         .style = style,
+                         .include = {},
+                         .columns = 1,
+                         .width = o->width,
+                         .height = o->height};
+  };
+  if (is_film(*o)) {
+    const fs::path path = o->out;
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    save_film(
+        frames.size(),
+        [&](std::size_t i) {
+          ContourFigure figure = figure_of(frames[i]);
+          figure.include = spread.corners;
+          return figure;
+        },
+        o->rate, path);
+    std::cout << path.string() << '\n';
+    return Exit::done;
+  }
+  for (std::size_t i : frames) {
     const fs::path path = picture_path(*o, run, selection, i);
     if (path.has_parent_path()) make_folder(path.parent_path());
-    save_contours({.title = run.scene ? run.scene->title : "",
-                   .panels = {std::move(panel)},
-                   .scale = scale,
-                   .columns = 1,
-                   .width = o->width,
-                   .height = o->height},
-                  path);
+    save_contours(figure_of(i), path);
     std::cout << path.string() << '\n';
   }
   return Exit::done;

@@ -7,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/field_help.hpp"
 #include "app/numbers.hpp"
+#include "app/picture_options.hpp"
 #include "render/run/norms.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
@@ -44,7 +45,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "points", po::value(&o.points)->value_name("N"),
       "laid out over the line, from 2 to 100000 (default: two per spacing of the particles)")(
       "out", po::value(&o.out)->value_name("FILE.png"),
-      "the chart; the table goes beside it as FILE.csv (default: section.png beside the first run's series)");
+      "the chart: .png, .svg or .pdf; the table goes beside it as FILE.csv (default: section.png beside the "
+      "first "
+      "run's series)");
   po::positional_options_description positional;
   positional.add("run", -1);
   po::variables_map values;
@@ -140,8 +143,7 @@ int section_command(const Arguments& arguments) {
     for (const FinishedRun& run : runs) require_same_problem(run, *fem);
   }
   const fs::path out = o->out.empty() ? runs.front().folder / "section.png" : fs::path(o->out);
-  if (out.extension() != ".png")
-    throw UsageError(fmt::format("--out = {}: the name must end in .png", o->out));
+  require_picture_name(out);
 
   std::vector<RunSection> sections, references;
   for (std::size_t i = 0; i < runs.size(); ++i) {

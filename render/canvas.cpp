@@ -1,10 +1,6 @@
 #include "render/canvas.hpp"
 
-#include <vtkBrush.h>
-#include <vtkContext2D.h>
-#include <vtkContextDevice2D.h>
 #include <vtkNew.h>
-#include <vtkPen.h>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
@@ -12,35 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/font.hpp"
+#include "render/canvas_device.hpp"
+#include "render/vtk_device.hpp"
 #include "solver/printable.hpp"
 
 namespace porosph {
 
 namespace {
-
-void apply(vtkTextProperty& property, const TextStyle& style, double scale) {
-  static const std::string font = font_file();
-  property.SetFontFamily(VTK_FONT_FILE);
-  property.SetFontFile(font.c_str());
-  property.SetFontSize(static_cast<int>(std::lround(style.size * scale)));
-  property.SetColor(style.colour[0] / 255., style.colour[1] / 255., style.colour[2] / 255.);
-  property.SetJustification(static_cast<int>(style.horizontal));  // VTK_TEXT_LEFT, _CENTERED, _RIGHT
-  property.SetVerticalJustification(static_cast<int>(style.vertical));
-  property.SetOrientation(style.upright ? 90 : 0);
-  property.SetLineOffset(0);
-}
-
-void apply(vtkPen& vtk_pen, const Pen& pen, double scale) {
-  vtk_pen.SetLineType(vtkPen::SOLID_LINE);
-  vtk_pen.SetColor(pen.colour[0], pen.colour[1], pen.colour[2]);
-  vtk_pen.SetWidth(static_cast<float>(std::max(1L, std::lround(pen.width * scale))));
-}
-
-void apply(vtkBrush& brush, const Fill& fill) {
-  brush.SetColor(fill.colour[0], fill.colour[1], fill.colour[2]);
-  brush.SetOpacityF(fill.opacity);
-}
 
 constexpr double subscript_size = 0.74, subscript_drop = 0.26, subscript_gap = 0.06;  // of the text's size
 
@@ -122,38 +96,15 @@ std::vector<std::vector<Pixel>> dashed(std::span<const Pixel> line, std::span<co
   return parts;
 }
 
-std::vector<float> Canvas::device(std::span<const Pixel> points) const {
-  std::vector<float> coordinates;
-  for (const Pixel& point : points) {
-    coordinates.push_back(static_cast<float>(point.x * scale_));
-    coordinates.push_back(static_cast<float>(point.y * scale_));
-  }
-  return coordinates;
-}
-
-void Canvas::solid_line(std::span<const Pixel> points) {
-  std::vector<float> coordinates = device(points);
-  context_.DrawPoly(coordinates.data(), static_cast<int>(points.size()));
-}
-
 void Canvas::line(std::span<const Pixel> points, const Pen& pen) {
   if (points.size() < 2) return;
-  apply(*context_.GetPen(), pen, scale_);
-  if (pen.dashes.empty()) {
-    solid_line(points);
-  } else {
-    for (const auto& part : dashed(points, pen.dashes)) solid_line(part);
-  }
+  if (pen.dashes.empty()) return device_.polyline(points, pen.colour, pen.width);
+  for (const auto& part : dashed(points, pen.dashes)) device_.polyline(part, pen.colour, pen.width);
 }
 
 void Canvas::line(Pixel from, Pixel to, const Pen& pen) { line(std::vector{from, to}, pen); }
 
-void Canvas::polygon(std::span<const Pixel> points, const Fill& fill) {
-  context_.GetPen()->SetLineType(vtkPen::NO_PEN);
-  apply(*context_.GetBrush(), fill);
-  std::vector<float> coordinates = device(points);
-  context_.DrawPolygon(coordinates.data(), static_cast<int>(points.size()));
-}
+void Canvas::polygon(std::span<const Pixel> points, const Fill& fill) { device_.polygon(points, fill); }
 
 void Canvas::box(const Box& box, const Fill& fill) {
   polygon(
@@ -181,10 +132,7 @@ void Canvas::disc(Pixel centre, double radius, const Fill& fill, const Pen& edge
 }
 
 void Canvas::plain_text(Pixel at, const std::string& text, const TextStyle& style) {
-  if (text.empty()) return;
-  apply(*context_.GetTextProp(), style, scale_);
-  context_.DrawString(static_cast<float>(at.x * scale_), static_cast<float>(at.y * scale_),
-                      vtkStdString(printable_lines(text)));
+  if (!text.empty()) device_.text(at, printable_lines(text), style);
 }
 
 void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
@@ -214,16 +162,8 @@ void Canvas::text(Pixel at, const std::string& text, const TextStyle& style) {
   }
 }
 
-void Canvas::clip(const Box& box) {
-  int area[4];  // x, y, width, height
-  area[0] = static_cast<int>(std::lround(box.x * scale_));
-  area[1] = static_cast<int>(std::lround(box.y * scale_));
-  area[2] = static_cast<int>(std::lround(box.width * scale_));
-  area[3] = static_cast<int>(std::lround(box.height * scale_));
-  context_.GetDevice()->SetClipping(area);
-  context_.GetDevice()->EnableClipping(true);
-}
+void Canvas::clip(const Box& box) { device_.clip(box); }
 
-void Canvas::unclip() { context_.GetDevice()->DisableClipping(); }
+void Canvas::unclip() { device_.unclip(); }
 
 }  // namespace porosph

@@ -7,9 +7,9 @@
 
 #include "render/colour_map.hpp"
 
-class vtkContext2D;
-
 namespace porosph {
+
+class CanvasDevice;
 
 struct Pixel {
   double x = 0, y = 0;
@@ -58,8 +58,7 @@ std::vector<std::vector<Pixel>> dashed(std::span<const Pixel> line, std::span<co
 
 class Canvas {
  public:
-  /// `scale`: device pixels per pixel of the picture.
-  Canvas(vtkContext2D& context, double scale) : context_(context), scale_(scale) {}
+  explicit Canvas(CanvasDevice& device) : device_(device) {}
 
   void line(std::span<const Pixel> points, const Pen& pen);
   void line(Pixel from, Pixel to, const Pen& pen);
@@ -76,11 +75,8 @@ class Canvas {
 
  private:
   void plain_text(Pixel at, const std::string& text, const TextStyle& style);
-  void solid_line(std::span<const Pixel> points);
-  std::vector<float> device(std::span<const Pixel> points) const;
 
-  vtkContext2D& context_;
-  double scale_;
+  CanvasDevice& device_;
 };
 
 }  // namespace porosph

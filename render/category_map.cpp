@@ -7,8 +7,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "render/drawing.hpp"
 #include "render/offscreen_window.hpp"
-#include "render/picture.hpp"
 
 namespace porosph {
 namespace {
@@ -187,10 +187,12 @@ void save_category_map(const CategoryMap& map, const std::filesystem::path& path
   if (map.x.labels.empty() || map.cells.size() != map.x.labels.size() * map.y.labels.size())
     throw std::runtime_error(fmt::format("render: map '{}' has {} cells for {} x {} labels", map.title,
                                          map.cells.size(), map.x.labels.size(), map.y.labels.size()));
-  const std::scoped_lock lock(render_mutex());
-  const Layout l = lay_out(map);
-  Picture picture(l.width, l.height);
-  picture.draw([&](Canvas& canvas) {
+  Layout l;
+  {
+    const std::scoped_lock lock(render_mutex());  // texts are measured
+    l = lay_out(map);
+  }
+  const auto paint = [&](Canvas& canvas) {
     canvas.text({0.5 * l.width, l.height - edge}, map.title,
                 {.size = fitting_size(map.title, title_size, l.width - 2 * edge), .vertical = Align::high});
     draw_cells(canvas, map, l);
@@ -200,8 +202,9 @@ void save_category_map(const CategoryMap& map, const std::filesystem::path& path
     for (std::size_t i = 0; i < l.notes.size(); ++i)
       canvas.text({edge, edge + note_row * (static_cast<double>(l.notes.size() - i) - 0.5)}, l.notes[i],
                   {.size = label_size, .colour = {70, 70, 70}, .horizontal = Align::low});
-  });
-  picture.save(path);
+  };
+  save_drawing({.width = l.width, .height = l.height, .title = map.title, .layers = {}, .paint = paint},
+               path);
 }
 
 }  // namespace porosph

@@ -34,8 +34,9 @@ struct CategoryMap {
   std::string mark_label;          ///< in the legend, what the marked places are
 };
 
-/// Draws the map as PNG, as large as its labels need. Same map, same bytes. Throws std::runtime_error for
-/// cells that do not fit the axes, a picture that would be too large, or a file that cannot be written.
+/// Draws the map as PNG, SVG or PDF, by the extension, as large as its labels need. Same map, same bytes.
+/// Throws std::runtime_error for cells that do not fit the axes, a picture that would be too large, or a file
+/// that cannot be written.
 void save_category_map(const CategoryMap& map, const std::filesystem::path& path);
 
 }  // namespace porosph

@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "render/chart_range.hpp"
+#include "render/drawing.hpp"
 #include "render/legend.hpp"
 #include "render/offscreen_window.hpp"
-#include "render/picture.hpp"
 
 namespace porosph {
 
@@ -211,17 +211,23 @@ void save_charts(const ChartFigure& figure, const std::filesystem::path& path) {
   const int width = figure.width > 0 ? figure.width : columns * default_width;
   const int height = figure.height > 0 ? figure.height : rows * default_height + header;
 
-  const std::scoped_lock lock(render_mutex());
-  const std::vector<ChartPlan> plans =
-      plan_all(figure, columns, cells_of(count, columns, width, height - header));
-
-  Picture picture(width, height);
-  picture.draw([&](Canvas& canvas) {
-    for (int i = 0; i < count; ++i) draw_chart(canvas, figure.charts[i], plans[i]);
-    canvas.text({0.5 * width, height - 12.}, figure.title,
-                {.size = fitting_size(figure.title, figure_title_text, width - 20), .vertical = Align::high});
-  });
-  picture.save(path);
+  std::vector<ChartPlan> plans;
+  {
+    const std::scoped_lock lock(render_mutex());  // texts are measured
+    plans = plan_all(figure, columns, cells_of(count, columns, width, height - header));
+  }
+  save_drawing({.width = width,
+                .height = height,
+                .title = figure.title,
+                .layers = {},
+                .paint =
+                    [&](Canvas& canvas) {
+                      for (int i = 0; i < count; ++i) draw_chart(canvas, figure.charts[i], plans[i]);
+                      canvas.text({0.5 * width, height - 12.}, figure.title,
+                                  {.size = fitting_size(figure.title, figure_title_text, width - 20),
+                                   .vertical = Align::high});
+                    }},
+               path);
 }
 
 }  // namespace porosph

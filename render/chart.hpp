@@ -58,9 +58,9 @@ struct ChartFigure {
   int width = 0, height = 0;  ///< [pixels]; 0: 760 x 400 per chart
 };
 
-/// Draws the charts as PNG, equal in size, row by row. Same figure, same bytes. May be called from any
-/// thread. Throws std::runtime_error for series of unequal x and y, a range that its axis cannot show, a
-/// picture too small for its charts, a missing font or a file that cannot be written.
+/// Draws the charts as PNG, SVG or PDF, by the extension, equal in size, row by row. Same figure, same bytes.
+/// May be called from any thread. Throws std::runtime_error for series of unequal x and y, a range that its
+/// axis cannot show, a picture too small for its charts, a missing font or a file that cannot be written.
 void save_charts(const ChartFigure& figure, const std::filesystem::path& path);
 
 }  // namespace porosph

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/nice_ticks.hpp"
+
 namespace porosph {
 
 namespace {
@@ -86,6 +88,17 @@ void draw_colours(Canvas& canvas, const Box& bar, const std::vector<Colour>& tab
     canvas.box({bar.x, bar.y + static_cast<double>(i) * step, bar.width, step}, {.colour = table[i]});
 }
 
+void draw_bands(Canvas& canvas, const Box& bar, const FixedScale& scale) {
+  const std::vector<Colour> colours = band_colours(scale);
+  const Axis axis = axis_of(scale);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double low = i == 0 ? 0 : axis.fraction(scale.levels[i - 1]),
+                 high = i == scale.levels.size() ? 1 : axis.fraction(scale.levels[i]);
+    canvas.box({bar.x, bar.y + low * bar.height, bar.width, (high - low) * bar.height},
+               {.colour = colours[i]});
+  }
+}
+
 void draw_point(Canvas& canvas, const Box& bar, double base, double tip, Colour colour) {
   const std::vector<Pixel> triangle = {{bar.x, base}, {bar.centre().x, tip}, {bar.right(), base}};
   canvas.polygon(triangle, {.colour = colour});
@@ -105,6 +118,14 @@ FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
   else
     fixed.range = is_diverging(scale.map) ? centred_range(extent) : rounded_range(extent);
   const double hair = 1e-6 * (fixed.range.high - fixed.range.low);
+  fixed.bands = scale.bands && scale.categories.empty();
+  if (scale.categories.empty()) {
+    constexpr int most_levels = 13;
+    fixed.levels = linear_ticks(fixed.range.low, fixed.range.high, most_levels);
+    std::erase_if(fixed.levels, [&](double level) {
+      return level < fixed.range.low + hair || level > fixed.range.high - hair;
+    });
+  }
   fixed.values_below = extent.low < fixed.range.low - hair;
   fixed.values_above = extent.high > fixed.range.high + hair;
   if (extent.low > extent.high) fixed.values_below = fixed.values_above = false;
@@ -112,7 +133,29 @@ FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
   return fixed;
 }
 
+std::vector<Colour> band_colours(const FixedScale& scale) {
+  std::vector<double> edges = scale.levels;
+  edges.insert(edges.begin(), scale.range.low);
+  edges.push_back(scale.range.high);
+  std::vector<double> middles;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) middles.push_back(0.5 * (edges[i] + edges[i + 1]));
+  FixedScale continuous = scale;
+  continuous.bands = false;
+  return colours_of(middles, continuous);
+}
+
 std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale) {
+  if (scale.bands) {
+    const std::vector<Colour> bands = band_colours(scale);
+    std::vector<Colour> colours;
+    colours.reserve(values.size());
+    for (const double value : values)
+      colours.push_back(std::isfinite(value)
+                            ? bands[static_cast<std::size_t>(std::ranges::upper_bound(scale.levels, value) -
+                                                             scale.levels.begin())]
+                            : invalid_colour(scale.map));
+    return colours;
+  }
   const std::vector<Colour> table = bar_colours(scale);
   const auto count = static_cast<double>(table.size());
   const double per_value = count / (scale.range.high - scale.range.low);
@@ -146,7 +189,10 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
   const Box bar = straight_part(box, scale);
   const std::vector<Colour> table = bar_colours(scale);
   const Pen edge{.colour = {60, 60, 60}};
-  draw_colours(canvas, bar, table);
+  if (scale.bands)
+    draw_bands(canvas, bar, scale);
+  else
+    draw_colours(canvas, bar, table);
   canvas.frame(bar, edge);
   if (const double zero = bar.y + bar.height * axis_of(scale).fraction(0); zero > bar.y && zero < bar.top())
     if (scale.categories.empty()) canvas.line({bar.x, zero}, {bar.right(), zero}, edge);

@@ -17,6 +17,7 @@ struct ColourScale {
   std::optional<ValueRange> range =
       {};  ///< default: the extent of the values, rounded; centred at zero if diverging
   std::vector<std::string> categories = {};  ///< names of the values 0, 1, ...: the bar has a box for each
+  bool bands = false;                        ///< a colour per step of the bar, in place of continuous ones
 };
 
 /// A scale whose range is known, and what the values shown with it do.
@@ -27,6 +28,8 @@ struct FixedScale {
   bool values_below = false, values_above = false, values_invalid = false;
   ValueRange extent = {};  ///< of the values
   std::vector<std::string> categories = {};
+  std::vector<double> levels = {};  ///< within the range, increasing: where isolines are, and colours change
+  bool bands = false;
 };
 
 /// Settles the range for all of `values`. Throws std::runtime_error for a given range that is empty or not
@@ -36,6 +39,9 @@ FixedScale fix_scale(const ColourScale& scale, std::span<const double> values);
 /// Colour of each value: outside of the range that of its end, not finite the map's invalid colour. A
 /// sequential map whose range holds zero goes on in reds above it.
 std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale);
+
+/// The colour of each band between the levels, below the first one first.
+std::vector<Colour> band_colours(const FixedScale& scale);
 
 /// Width of bar, labels and title together, for a bar of this height [pixels].
 double colour_bar_width(const FixedScale& scale, double height);

@@ -8,10 +8,14 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "render/bands.hpp"
 #include "render/contour_layout.hpp"
+#include "render/drawing.hpp"
+#include "render/field_marks.hpp"
 #include "render/offscreen_window.hpp"
-#include "render/particle_scene.hpp"
+#include "render/particle_patches.hpp"
 #include "render/picture.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
 
@@ -53,6 +57,13 @@ void check(const ContourPanel& panel) {
   if (!field.displacements.empty() && field.displacements.size() != count)
     fail(fmt::format("{} displacements for {} particles; allowed are none or one each",
                      field.displacements.size(), count));
+  for (const auto& [name, size] :
+       {std::pair{"arrows", panel.arrows.size()}, std::pair{"crosses", panel.crosses.size()}})
+    if (size != 0 && size != count)
+      fail(fmt::format("{} {} for {} particles; allowed are none or one each", size, name, count));
+  if (panel.smooth && panel.smooth->values.size() != panel.smooth->points.size())
+    fail(fmt::format("{} values for {} points of triangles", panel.smooth->values.size(),
+                     panel.smooth->points.size()));
 }
 
 std::vector<Point> drawn_positions(const ParticleField& field) {
@@ -132,18 +143,24 @@ FixedScale shared_scale(const ContourFigure& figure) {
   for (const ContourPanel& panel : figure.panels)
     if (!panel.own_scale)
       values.insert(values.end(), panel.particles.values.begin(), panel.particles.values.end());
-  return fix_scale(figure.scale, values);
+  ColourScale scale = figure.scale;
+  scale.bands = figure.style == FieldStyle::bands;
+  return fix_scale(scale, values);
 }
 
 std::vector<Scene> make_scenes(const ContourFigure& figure) {
   const FixedScale shared = shared_scale(figure);
+  const auto own_scale = [&](const ContourPanel& panel) {
+    ColourScale scale = *panel.own_scale;
+    scale.bands = figure.style == FieldStyle::bands;
+    return fix_scale(scale, panel.particles.values);
+  };
   std::vector<Scene> scenes;
   for (const ContourPanel& panel : figure.panels) {
     check(panel);
     std::vector<Point> positions = drawn_positions(panel.particles);
     const Extent body = body_extent(panel, positions);
-    scenes.push_back({panel, std::move(positions), body,
-                      panel.own_scale ? fix_scale(*panel.own_scale, panel.particles.values) : shared, ""});
+    scenes.push_back({panel, std::move(positions), body, panel.own_scale ? own_scale(panel) : shared, ""});
   }
   return scenes;
 }
@@ -155,6 +172,8 @@ Extent common_world(const std::vector<Scene>& scenes) {
     world.include(scene.body.x_high, scene.body.y_high);
     for (const WaterStretch& stretch : scene.panel.scenery.water)
       world.include(scene.body.x_low, stretch.level);
+    for (const SoilOutline& soil : scene.panel.before)
+      for (const Point& corner : soil.polygon) world.include(corner.x(), corner.y());
   }
   return world;
 }
@@ -229,49 +248,146 @@ void draw_titles(Canvas& canvas, const Scene& scene, const Box& frame) {
                .vertical = Align::low});
 }
 
-void draw_panel(Canvas& canvas, const Scene& scene, const Plot& plot) {
+/// The smooth field in pixels from the lower left corner of the plot's box, or of the picture.
+TriangleField on_picture(const SmoothField& smooth, const Plot& plot, bool in_box) {
+  TriangleField field{.points = {}, .values = smooth.values, .triangles = smooth.triangles};
+  field.points.reserve(smooth.points.size());
+  const Pixel origin = in_box ? Pixel{plot.box.x, plot.box.y} : Pixel{};
+  for (const Point& p : smooth.points) {
+    const Pixel at = plot.at(p.x(), p.y());
+    field.points.push_back({at.x - origin.x, at.y - origin.y});
+  }
+  return field;
+}
+
+FieldLayer bands_of(const SmoothField& smooth, const Plot& plot, const FixedScale& scale) {
+  const TriangleField field = on_picture(smooth, plot, true);
+  const std::vector<Colour> colours = band_colours(scale);
+  FieldLayer layer{.patches = {.area = plot.box, .dot = 0, .corners = {}, .ends = {}, .colours = {}},
+                   .regions = {}};
+  for (const BandPiece& piece : band_pieces(field, scale.levels))
+    layer.patches.add(std::span(piece.corners).first(static_cast<std::size_t>(piece.count)),
+                      colours[static_cast<std::size_t>(piece.band)]);
+  layer.regions = [field, colours, levels = scale.levels] {
+    std::vector<FilledRegion> regions = {
+        {region_above(field, -std::numeric_limits<double>::infinity()), colours.front()}};
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      regions.push_back({region_above(field, levels[i]), colours[i + 1]});
+    return regions;
+  };
+  return layer;
+}
+
+/// Those that the triangles do not cover, or whose triangles have a corner without a value.
+std::vector<bool> drawn_beneath(const SmoothField& smooth, std::size_t particles) {
+  std::vector<bool> drawn = smooth.uncovered;
+  for (const auto& t : smooth.triangles) {
+    const auto value = [&](int i) { return smooth.values[static_cast<std::size_t>(i)]; };
+    if (std::ranges::all_of(t, [&](int i) { return std::isfinite(value(i)); })) continue;
+    for (const int i : t)
+      if (static_cast<std::size_t>(i) < particles) drawn[static_cast<std::size_t>(i)] = true;
+  }
+  return drawn;
+}
+
+FieldLayer particles_of(const Scene& scene, const Plot& plot, FieldStyle style) {
+  const ParticleField& field = scene.panel.particles;
+  std::vector<Point> positions = scene.positions;
+  if (style == FieldStyle::bands && scene.panel.smooth) {
+    const std::vector<bool> drawn = drawn_beneath(*scene.panel.smooth, positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      if (!drawn[i]) positions[i] = Point::Constant(std::numeric_limits<double>::quiet_NaN());  // left out
+  }
+  return {particle_patches(plot, positions, field.sizes, field.cells, colours_of(field.values, scene.scale)),
+          {}};
+}
+
+void draw_panel(Canvas& canvas, const Scene& scene, const Plot& plot, FieldStyle style) {
+  const ContourPanel& panel = scene.panel;
   canvas.clip(plot.box);
-  draw_scenery(canvas, plot, scene.panel.scenery, scene.body.x_low, scene.body.x_high);
+  if (style != FieldStyle::particles && panel.smooth)
+    draw_isolines(canvas, plot.box, on_picture(*panel.smooth, plot, false), scene.scale.levels);
+  draw_outlines_before(canvas, plot, panel.before);
+  if (!panel.crosses.empty()) draw_crosses(canvas, plot, scene.positions, panel.crosses);
+  if (!panel.arrows.empty()) draw_arrows(canvas, plot, scene.positions, panel.arrows);
+  draw_scenery(canvas, plot, panel.scenery, scene.body.x_low, scene.body.x_high);
   canvas.unclip();
   draw_frame(canvas, plot);
   draw_titles(canvas, scene, plot.box);
 }
 
-void add_scenes(Picture& picture, const Scene& scene, const Plot& plot) {
-  picture.add_scene(plot.box, water_scene(plot, scene.panel.scenery.water, scene.body.x_low,
-                                          scene.body.x_high, scene.body.y_low));
-  picture.add_scene(plot.box, particle_scene(plot, scene.positions, scene.panel.particles.sizes,
-                                             scene.panel.particles.cells,
-                                             colours_of(scene.panel.particles.values, scene.scale)));
+void add_layers(Drawing& drawing, const Scene& scene, const Plot& plot, FieldStyle style) {
+  drawing.layers.push_back(
+      {water_patches(plot, scene.panel.scenery.water, scene.body.x_low, scene.body.x_high, scene.body.y_low),
+       {}});
+  drawing.layers.push_back(particles_of(scene, plot, style));
+  if (style == FieldStyle::bands && scene.panel.smooth)
+    drawing.layers.push_back(bands_of(*scene.panel.smooth, plot, scene.scale));
+}
+
+/// A figure with all that its drawing needs.
+struct PreparedFigure {
+  std::vector<Scene> scenes;
+  ContourLayout layout;
+  std::vector<Plot> plots;
+};
+
+PreparedFigure prepare(const ContourFigure& figure) {
+  const std::scoped_lock lock(render_mutex());  // texts are measured
+  PreparedFigure p{.scenes = make_scenes(figure), .layout = {}, .plots = {}};
+  Extent world = common_world(p.scenes);
+  for (const Point& place : figure.include) world.include(place.x(), place.y());
+  for (Scene& scene : p.scenes) scene.note = missing_note(scene.positions, world);
+  const double title_width = text_extent(figure.title, figure_title_text).x + 40;
+  const Exaggeration exaggeration = exaggeration_of(world);
+  p.layout = lay_out(needed_space(figure, p.scenes, world, exaggeration),
+                     {figure.columns, figure.width, figure.height, title_width});
+  for (const Box& frame : p.layout.frames)
+    p.plots.push_back(plot_of(frame, world, p.layout.pixels_per_metre, exaggeration));
+  return p;
+}
+
+/// Hands the figure's drawing, which lives as long as the call, to `use`.
+template <class Use>
+void with_drawing(const ContourFigure& figure, Use&& use) {
+  if (figure.panels.empty()) throw std::runtime_error("render: a contour figure without panels");
+  const PreparedFigure p = prepare(figure);
+  Drawing drawing{
+      .width = p.layout.width, .height = p.layout.height, .title = figure.title, .layers = {}, .paint = {}};
+  for (std::size_t i = 0; i < p.scenes.size(); ++i)
+    add_layers(drawing, p.scenes[i], p.plots[i], figure.style);
+  drawing.paint = [&](Canvas& canvas) {
+    for (std::size_t i = 0; i < p.scenes.size(); ++i)
+      draw_panel(canvas, p.scenes[i], p.plots[i], figure.style);
+    for (const BarPlace& bar : p.layout.bars) draw_colour_bar(canvas, bar.box, p.scenes[bar.panel].scale);
+    canvas.text({0.5 * p.layout.width, p.layout.height - 14.}, figure.title,
+                {.size = fitting_size(figure.title, figure_title_text, p.layout.width - 20),
+                 .vertical = Align::high});
+  };
+  use(drawing);
 }
 
 }  // namespace
 
 void save_contours(const ContourFigure& figure, const std::filesystem::path& path) {
-  if (figure.panels.empty()) throw std::runtime_error("render: a contour figure without panels");
-  const std::scoped_lock lock(render_mutex());
-  std::vector<Scene> scenes = make_scenes(figure);
-  const Extent world = common_world(scenes);
-  for (Scene& scene : scenes) scene.note = missing_note(scene.positions, world);
+  with_drawing(figure, [&](const Drawing& drawing) { save_drawing(drawing, path); });
+}
 
-  const double title_width = text_extent(figure.title, figure_title_text).x + 40;
-  const Exaggeration exaggeration = exaggeration_of(world);
-  const ContourLayout layout = lay_out(needed_space(figure, scenes, world, exaggeration),
-                                       {figure.columns, figure.width, figure.height, title_width});
-  std::vector<Plot> plots;
-  for (const Box& frame : layout.frames)
-    plots.push_back(plot_of(frame, world, layout.pixels_per_metre, exaggeration));
-
-  Picture picture(layout.width, layout.height);
-  for (std::size_t i = 0; i < scenes.size(); ++i) add_scenes(picture, scenes[i], plots[i]);
-  picture.draw([&](Canvas& canvas) {
-    for (std::size_t i = 0; i < scenes.size(); ++i) draw_panel(canvas, scenes[i], plots[i]);
-    for (const BarPlace& bar : layout.bars) draw_colour_bar(canvas, bar.box, scenes[bar.panel].scale);
-    canvas.text(
-        {0.5 * layout.width, layout.height - 14.}, figure.title,
-        {.size = fitting_size(figure.title, figure_title_text, layout.width - 20), .vertical = Align::high});
-  });
-  picture.save(path);
+void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)>& figure,
+               double pictures_per_second, const std::filesystem::path& path) {
+  int width = 0, height = 0;
+  with_drawing(figure(count - 1), [&](const Drawing& d) { width = d.width, height = d.height; });
+  Film film(pictures_per_second);
+  for (std::size_t i = 0; i < count; ++i) {
+    ContourFigure one = figure(i);
+    one.width = width;
+    one.height = height;
+    with_drawing(one, [&](const Drawing& drawing) {
+      const std::scoped_lock lock(render_mutex());
+      film.add(pixels_of(drawing));
+    });
+  }
+  write_file(path, film.finish());
 }
 
 }  // namespace porosph

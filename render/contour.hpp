@@ -1,13 +1,16 @@
 // Contour pictures of particle data: one or several panels, drawn to the same scale of length.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "render/colour_bar.hpp"
 #include "render/scenery.hpp"
+#include "solver/space/tensor.hpp"
 
 namespace porosph {
 
@@ -21,9 +24,28 @@ struct ParticleField {
   double displacement_factor = 1;
 };
 
+/// The same scalar on triangles, linear in each.
+struct SmoothField {
+  std::vector<Point> points;   ///< [m]; the first ones are the particles'
+  std::vector<double> values;  ///< one per point, in the unit of the colour scale
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<bool> uncovered;  ///< particles around which triangles are missing: these are drawn beneath
+};
+
+/// How a field is drawn.
+enum class FieldStyle {
+  particles,  ///< each particle in its colour
+  bands,      ///< bands between levels, with labelled isolines
+  isolines,   ///< each particle in its colour, with labelled isolines
+};
+
 struct ContourPanel {
   std::string title, subtitle;  ///< e.g. the formulation, and the time
   ParticleField particles;
+  std::optional<SmoothField> smooth;  ///< for the styles bands and isolines
+  std::vector<Point> arrows;  ///< a vector per particle, or none; some are drawn, the longest one a cell long
+  std::vector<Stress> crosses;      ///< a stress per particle, or none: principal directions, likewise
+  std::vector<SoilOutline> before;  ///< outlines that are drawn dashed [m]
   Scenery scenery;
   std::optional<ColourScale> own_scale;  ///< default: the figure's, shared with its range by all such panels
 };
@@ -32,13 +54,20 @@ struct ContourFigure {
   std::string title;  ///< may be empty
   std::vector<ContourPanel> panels;
   ColourScale scale;
-  int columns = 0;            ///< 0: as fits the bodies' shape best
-  int width = 0, height = 0;  ///< [pixels]; 0: fitted to the content, at most 1600 x 1200
+  FieldStyle style = FieldStyle::particles;
+  std::vector<Point> include = {};  ///< places that must be in each panel [m]
+  int columns = 0;                  ///< 0: as fits the bodies' shape best
+  int width = 0, height = 0;        ///< [pixels]; 0: fitted to the content, at most 1600 x 1200
 };
 
-/// Draws the figure as PNG. Same figure, same bytes. May be called from any thread.
-/// Throws std::runtime_error for arrays of unequal length, a panel without particles, an empty range, a
-/// picture that is too small for its panels, a missing font or a file that cannot be written.
+/// Draws the figure as PNG, SVG or PDF, by the extension. Same figure, same bytes. May be called from any
+/// thread. Throws std::runtime_error for arrays of unequal length, a panel without particles, an empty range,
+/// a picture that is too small for its panels, a missing font or a file that cannot be written.
 void save_contours(const ContourFigure& figure, const std::filesystem::path& path);
+
+/// Draws figures one after the other into an animated WebP. All have the size of the last one, or the one
+/// they ask for. Throws as save_contours, and for figures that do not fit that size.
+void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)>& figure,
+               double pictures_per_second, const std::filesystem::path& path);
 
 }  // namespace porosph

@@ -29,9 +29,10 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
   return a;
 }
 
-ContourPanel side_panel(const Side& side, const FieldSelection& field, double factor, double deformation) {
-  ContourPanel panel =
-      panel_of(side.run, side.frame, scaled(values_of(side.frame, field), factor), deformation);
+ContourPanel side_panel(const Side& side, const FieldSelection& field, double factor,
+                        const ComparisonChoice& choice) {
+  ContourPanel panel = panel_of(side.run, side.frame, scaled(values_of(side.frame, field), factor),
+                                choice.deformation, choice.style);
   panel.title = side.label;
   panel.subtitle = panel_subtitle(side.run, side.frame.time, side.label);
   return panel;
@@ -39,16 +40,18 @@ ContourPanel side_panel(const Side& side, const FieldSelection& field, double fa
 
 /// Drawn where the soil was at t = 0, as the two runs have it in different places later.
 ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, std::vector<double> values,
-                              std::string title, std::string subtitle) {
+                              std::string title, std::string subtitle, FieldStyle style) {
   ContourPanel panel;
   panel.title = std::move(title);
   panel.subtitle = std::move(subtitle);
   panel.particles.positions = at;
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(side.run, side.frame);
-  if (!side.run.scene) return panel;
-  panel.particles.cells = drawn_cells(*side.run.scene, at);
-  panel.scenery = scenery_of(*side.run.scene);
+  const Case* scene = side.run.scene ? &*side.run.scene : nullptr;
+  if (style != FieldStyle::particles) add_smooth_field(panel, scene, at, at, at);
+  if (scene == nullptr) return panel;
+  panel.particles.cells = drawn_cells(*scene, at);
+  panel.scenery = scenery_of(*scene);
   return panel;
 }
 
@@ -77,7 +80,7 @@ ContourPanel run_difference(const Drawing& d, const FieldSelection& field, doubl
     subtitle = fmt::format("{:.3g} s − {:.3g} s: {}", d.a.frame.time, d.b.frame.time, subtitle);
   return difference_panel(a_is_coarser ? d.a : d.b, d.points.at,
                           scaled(difference(values_a, values_b), factor), d.a.label + " − " + d.b.label,
-                          subtitle);
+                          subtitle, d.choice.style);
 }
 
 ContourPanel fem_difference(const Drawing& d, const Side& side, const FieldSelection& field, double factor) {
@@ -85,7 +88,7 @@ ContourPanel fem_difference(const Drawing& d, const Side& side, const FieldSelec
   const FieldNorms n = fem_norm(side.frame, *d.fem, field, d.choice.left_out);
   return difference_panel(
       side, starts, scaled(difference(values_of(side.frame, field), d.fem->values(field, starts)), factor),
-      side.label + " − finite elements", norms_text(n));
+      side.label + " − finite elements", norms_text(n), d.choice.style);
 }
 
 /// Each difference has a range of its own: one may be a hundredth of another.
@@ -107,10 +110,12 @@ void draw_field(const Drawing& d, const FieldSelection& field, const fs::path& f
   const bool with_fem = d.fem && drawable_with_fem(field);
   ContourFigure figure;
   figure.title = shown_name(field);
-  figure.panels = {side_panel(d.a, field, unit.factor, d.choice.deformation),
-                   side_panel(d.b, field, unit.factor, d.choice.deformation)};
+  figure.style = d.choice.style;
+  figure.panels = {side_panel(d.a, field, unit.factor, d.choice),
+                   side_panel(d.b, field, unit.factor, d.choice)};
   if (with_fem)
-    figure.panels.push_back(fem_panel(*d.fem, d.b.run, d.b.frame, field, unit.factor, d.choice.deformation));
+    figure.panels.push_back(
+        fem_panel(*d.fem, d.b.run, d.b.frame, field, unit.factor, d.choice.deformation, d.choice.style));
   std::vector<std::vector<double>> values;
   for (const ContourPanel& panel : figure.panels) values.push_back(panel.particles.values);
   figure.scale = scale_of(field, unit, d.b.run.scene,
@@ -155,7 +160,7 @@ std::string csv_rows(const std::string& values, double time, const std::string& 
 }  // namespace
 
 ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Frame& frame,
-                       const FieldSelection& field, double factor, double deformation) {
+                       const FieldSelection& field, double factor, double deformation, FieldStyle style) {
   const std::vector<Point> starts = starts_of(frame);
   ContourPanel panel;
   panel.title = "Finite elements";
@@ -169,6 +174,11 @@ ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Fr
   for (std::size_t i = 0; i < starts.size(); ++i)
     displacements.push_back(std::isfinite(x[i]) ? Point(x[i], y[i]) : Point(0, 0));
   panel.scenery = scenery_of(fem.scene());
+  if (style != FieldStyle::particles) {
+    std::vector<Point> drawn = starts;
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] += deformation * displacements[i];
+    add_smooth_field(panel, run.scene ? &*run.scene : nullptr, starts, starts, drawn);
+  }
   if (run.scene && deformation != 1)
     deform_surroundings(panel, *run.scene, starts, displacements, deformation);
   panel.particles.displacements = std::move(displacements);

@@ -13,6 +13,7 @@ namespace porosph {
 struct ComparisonChoice {
   std::vector<FieldSelection> pictures;  ///< fields to draw
   double deformation = 1;
+  FieldStyle style = FieldStyle::particles;
   std::optional<ValueRange> range, difference_range;  ///< of the colours, as shown; default: by the values
   std::vector<LeftOut> left_out;                      ///< of the norms against finite elements
 };
@@ -35,7 +36,8 @@ Comparison compare_runs(const FinishedRun& a, std::size_t frame_a, const Finishe
 
 /// What the finite elements say, drawn at the run's particles.
 ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Frame& frame,
-                       const FieldSelection& field, double factor, double deformation = 1);
+                       const FieldSelection& field, double factor, double deformation = 1,
+                       FieldStyle style = FieldStyle::particles);
 
 /// comparison.csv and comparison.json in `folder`. Numbers that are not finite: empty, and null with a
 /// reason.

@@ -28,18 +28,20 @@ std::vector<std::size_t> instants(std::size_t frames) {
   return {chosen.begin(), chosen.end()};
 }
 
-/// The first three places that differ.
+/// Of the first three probes that are some distance apart, or the middle of the soil.
 std::vector<double> verticals_of(const Case& scene) {
-  constexpr std::size_t most = 3;
-  std::vector<double> places;
-  for (const ProbeCase& probe : scene.probes)
-    if (places.size() < most && std::ranges::find(places, probe.position.x()) == places.end())
-      places.push_back(probe.position.x());
-  if (!places.empty()) return places;
   double low = never, high = -never;
   for (const SoilCase& soil : scene.soils)
     for (const Point& p : soil.polygon) low = std::min(low, p.x()), high = std::max(high, p.x());
-  return {0.5 * (low + high)};
+  constexpr std::size_t most = 3;
+  const double apart = 0.05 * (high - low);
+  std::vector<double> places;
+  for (const ProbeCase& probe : scene.probes)
+    if (places.size() < most &&
+        std::ranges::none_of(places, [&](double x) { return std::abs(x - probe.position.x()) < apart; }))
+      places.push_back(probe.position.x());
+  if (places.empty()) places.push_back(0.5 * (low + high));
+  return places;
 }
 
 /// The run's last frame on a vertical; nothing where the soil has left it.

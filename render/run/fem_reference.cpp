@@ -120,8 +120,12 @@ bool FemReference::covers(const Point& point) const { return !locator_->find(mes
 std::vector<double> FemReference::values(const FieldSelection& field,
                                          const std::vector<Point>& points) const {
   const auto array = arrays_.find(field.text());
-  if (array == arrays_.end())
-    throw std::runtime_error(fmt::format("the finite-element reference has no {}", field.text()));
+  if (array == arrays_.end()) {
+    const Frame all = state(points);
+    if (has_field(all, field.name) || !can_show(all, field.name))
+      throw std::runtime_error(fmt::format("the finite-element reference has no {}", field.text()));
+    return values_of(all, field);
+  }
   std::vector<double> out;
   for (const Point& point : points) {
     const auto hits = locator_->find(mesh_, point);
@@ -150,10 +154,16 @@ Frame FemReference::state(const std::vector<Point>& points) const {
     field.values = std::move(all);
     frame.fields.push_back(std::move(field));
   }
+  for (const Point& p : points) frame.points.insert(frame.points.end(), {p.x(), p.y(), 0});
+  if (scene_.water.present()) {  // their pressure is that at the places at t = 0
+    add_water_unit_weight(frame, scene_.water.unit_weight);
+    if (auto head = derived_field(frame, "Head")) frame.fields.push_back(std::move(*head));
+  }
   const auto u_x = values({"Displacement", "X"}, points), u_y = values({"Displacement", "Y"}, points);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    frame.points.insert(frame.points.end(), {points[i].x() + u_x[i], points[i].y() + u_y[i], 0});
-  if (scene_.water.present()) add_head(frame, scene_.water.unit_weight);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    frame.points[3 * i] += u_x[i];
+    frame.points[3 * i + 1] += u_y[i];
+  }
   return frame;
 }
 

@@ -20,8 +20,8 @@ class FemReference {
 
   bool covers(const Point& point) const;  ///< [m], at t = 0
 
-  /// At points at t = 0 [m], by the elements' own shape functions; NaN outside of the mesh. Throws
-  /// std::runtime_error for a field or component that the reference does not have.
+  /// At points at t = 0 [m], by the elements' own shape functions, or computed from such values; NaN outside
+  /// of the mesh. Throws std::runtime_error for a field or component that the reference does not have.
   std::vector<double> values(const FieldSelection& field, const std::vector<Point>& points) const;
 
   /// All fields at points at t = 0 [m], as a frame at the places to which the points come.

@@ -58,7 +58,7 @@ bool ends_at_rest(const FinishedRun& run) {
 
 Frame frame_of(const FinishedRun& run, std::size_t frame) {
   Frame read = frame_of(*read_frame(run.series.file(frame)));
-  if (run.scene && run.scene->water.present()) add_head(read, run.scene->water.unit_weight);
+  if (run.scene && run.scene->water.present()) add_water_unit_weight(read, run.scene->water.unit_weight);
   return read;
 }
 

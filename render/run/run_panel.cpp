@@ -9,6 +9,7 @@
 #include "render/run/material_points.hpp"
 #include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
+#include "render/run/soil_mesh.hpp"
 #include "render/run/water_around.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/water/standing_water.hpp"
@@ -124,26 +125,43 @@ void deform_surroundings(ContourPanel& panel, const Case& scene, const std::vect
     for (Point& corner : cells[i]) corner = corners[next++] - (starts[i] + factor * displacements[i]);
 }
 
+void add_smooth_field(ContourPanel& panel, const Case* scene, const std::vector<Point>& starts,
+                      const std::vector<Point>& positions, const std::vector<Point>& drawn) {
+  const double spacing = scene != nullptr ? scene->particles.spacing : usual_distance(starts);
+  const SoilMesh mesh(scene, starts, positions, spacing);
+  panel.smooth = {.points = mesh.at_corners(drawn, starts),
+                  .values = mesh.at_corners(panel.particles.values),
+                  .triangles = mesh.triangles(),
+                  .uncovered = mesh.uncovered()};
+}
+
 ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<double> values,
-                      double deformation) {
+                      double deformation, FieldStyle style) {
   ContourPanel panel;
   panel.particles.positions = positions_of(frame);
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(run, frame);
-  if (run.scene && has(frame, "Displacement"))
-    panel.particles.cells = drawn_cells(*run.scene, starts_of(frame));
+  const bool knows_starts = has(frame, "Displacement");
+  const Case* scene = run.scene && knows_starts ? &*run.scene : nullptr;
+  const std::vector<Point> positions = panel.particles.positions,
+                           starts = knows_starts ? starts_of(frame) : positions;
+  if (scene != nullptr) panel.particles.cells = drawn_cells(*scene, starts);
   if (run.scene) panel.scenery = scenery_of(scene_at(*run.scene, frame.time));
   if (run.scene && run.scene->water.mode == WaterMode::steady && has(frame, "PressureHead"))
     panel.scenery.water_table = water_table(panel.particles.positions, values_of(frame, {"PressureHead", ""}),
                                             run.scene->particles.spacing);
-  if (deformation == 1) return panel;
-  if (!has(frame, "Displacement"))
+  if (deformation != 1 && !knows_starts)
     throw std::runtime_error(
         "drawing the deformation needs the field Displacement, which the series does not have");
-  const auto x = values_of(frame, {"Displacement", "X"}), y = values_of(frame, {"Displacement", "Y"});
-  std::vector<Point> displacements;
-  for (std::size_t i = 0; i < x.size(); ++i) displacements.push_back({x[i], y[i]});
-  if (run.scene) deform_surroundings(panel, *run.scene, starts_of(frame), displacements, deformation);
+  std::vector<Point> drawn = positions, displacements;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    displacements.push_back(positions[i] - starts[i]);
+    drawn[i] += (deformation - 1) * displacements[i];
+  }
+  if (style != FieldStyle::particles) add_smooth_field(panel, scene, starts, positions, drawn);
+  if (deformation == 1) return panel;
+  if (deformation != 0) panel.before = panel.scenery.soils;
+  if (scene != nullptr) deform_surroundings(panel, *scene, starts, displacements, deformation);
   panel.particles.displacements = std::move(displacements);
   panel.particles.displacement_factor = deformation - 1;  // the positions hold it once
   return panel;

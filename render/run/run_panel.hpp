@@ -15,7 +15,13 @@ Scenery scenery_of(const Case& scene);
 /// the frame; throws std::runtime_error without). Unless it is 1, outlines and probes move along with the
 /// soil, while supports and water stay where they are.
 ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<double> values,
-                      double deformation = 1);
+                      double deformation = 1, FieldStyle style = FieldStyle::particles);
+
+/// Adds the values on triangles, for the styles that need them. `starts`: the particles at t = 0,
+/// `positions`: now, `drawn`: where the picture has them [m]. Without a case the soil ends at the outermost
+/// particles.
+void add_smooth_field(ContourPanel& panel, const Case* scene, const std::vector<Point>& starts,
+                      const std::vector<Point>& positions, const std::vector<Point>& drawn);
 
 /// Moves a panel's outlines, probes and cells by `factor` times the particles' `displacements`, which are
 /// theirs from `starts` [m]; its positions are left alone.

@@ -19,6 +19,7 @@ namespace {
 using Names = std::vector<std::string>;
 using Doubles = std::vector<double>;
 
+const std::string water_unit_weight = "WaterUnitWeight";
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 namespace derived {
@@ -39,7 +40,7 @@ constexpr Field pore_pressure_ratio{"PorePressureRatio", "-", "r_u", "pore press
                                     "r_u = p_w / sigma_yy, of total stress; not a number without pressure "
                                     "from above"};
 constexpr Field head{"Head", "m", "h", "hydraulic head",
-                     "y - p_w / gamma_w, in wet soil; of a case with water"};
+                     "y - p_w / gamma_w in wet soil, of a case with water"};
 
 }  // namespace derived
 
@@ -144,6 +145,15 @@ Doubles pore_pressure_ratio_of(const Frame& frame) {
   return out;
 }
 
+/// Where the soil is wet.
+Doubles head_of(const Frame& frame) {
+  Doubles out = values_of(frame, {"PorePressure", ""});
+  const Doubles unit_weight = values_of(frame, {water_unit_weight, ""});
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = out[i] < 0 ? frame.points[3 * i + 1] - out[i] / unit_weight[i] : no_number;
+  return out;
+}
+
 /// A field and how it is computed: from all fields of one of the lists, of which it takes the first that the
 /// frame has.
 struct Derivation {
@@ -192,6 +202,7 @@ const std::vector<Derivation>& derivations() {
       {derived::pore_pressure_ratio.name,
        {{"TotalStress", "PorePressure"}, {"EffectiveStress", "PorePressure"}},
        pore_pressure_ratio_of},
+      {derived::head.name, {{"PorePressure", water_unit_weight}}, head_of},
   };
   return all;
 }
@@ -245,12 +256,9 @@ std::string sources_of_field(const std::string& name) {
   return d == nullptr ? "" : fmt::format("{}", fmt::join(d->sources.back(), ", "));
 }
 
-void add_head(Frame& frame, double water_unit_weight) {
-  if (has_field(frame, "Head") || !has_field(frame, "PorePressure")) return;
-  Doubles head = values_of(frame, {"PorePressure", ""});
-  for (std::size_t i = 0; i < head.size(); ++i)
-    head[i] = head[i] == 0 ? no_number : frame.points[3 * i + 1] - head[i] / water_unit_weight;
-  frame.fields.push_back({"Head", {}, std::move(head)});
+void add_water_unit_weight(Frame& frame, double unit_weight) {
+  if (!has_field(frame, water_unit_weight))
+    frame.fields.push_back({water_unit_weight, {}, Doubles(frame.points.size() / 3, unit_weight)});
 }
 
 }  // namespace porosph

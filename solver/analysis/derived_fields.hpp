@@ -26,8 +26,7 @@ std::vector<std::string> derivable_fields(const Frame& frame);
 /// "EffectiveStress and PorePressure": what a field is computed from; empty for a field that is not computed.
 std::string sources_of_field(const std::string& name);
 
-/// Adds the head y - p_w / gamma_w [m] where the frame has the pore pressure and no head of its own. Takes
-/// the unit weight of water [N/m3].
-void add_head(Frame& frame, double water_unit_weight);
+/// Tells the frame the unit weight of water [N/m3], from which, with the pore pressure, the head is computed.
+void add_water_unit_weight(Frame& frame, double unit_weight);
 
 }  // namespace porosph

@@ -28,7 +28,7 @@ std::optional<Frame> exact_state(const Case& scene, const std::vector<Point>& st
   frame.fields = {{"EffectiveStress", component_names(FieldKind::symmetric), std::move(stress)},
                   {"Displacement", component_names(FieldKind::vector), std::move(displacement)},
                   {"PorePressure", {}, std::move(pressure)}};
-  if (water.present()) add_head(frame, water.unit_weight());
+  if (water.present()) add_water_unit_weight(frame, water.unit_weight());
   return frame;
 }
 

@@ -4,7 +4,7 @@
 
 #include "image.hpp"
 #include "render/contour.hpp"
-#include "render/particle_scene.hpp"
+#include "render/picture.hpp"
 
 using namespace porosph;
 

@@ -99,10 +99,10 @@ TEST_CASE("strains are computed from stored displacements, exact where they are 
 
 TEST_CASE("the head is the height to which water would rise", "[output]") {
   Frame frame = stressed({}, -3 * 9810.);
-  add_head(frame, 9810);
+  add_water_unit_weight(frame, 9810);
   CHECK(value(frame, "Head") == Approx(2 + 3));
   Frame above = stressed({}, 0);
-  add_head(above, 9810);
+  add_water_unit_weight(above, 9810);
   CHECK(std::isnan(value(above, "Head")));
 }
 
