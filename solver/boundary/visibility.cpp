@@ -80,7 +80,7 @@ Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall>
   segments_ = along_outlines(walls, all, 1e-3 * spacing);
   walls_ = WallPaths(segments_, range);
   has_slits_ = any_slit_hides(particles);
-  everywhere_ = !has_slits_ && walls_.all_in_sight(particles.start);
+  ghosts_everywhere_ = walls_.all_in_sight(particles.start);
 }
 
 /// Inside or on an outline.
@@ -101,8 +101,9 @@ Visibility::Exit Visibility::exit(const Vec2& from, const Vec2& to) const {
   Exit found;
   double left = never;
   for (const auto& [t, edge] : crossed) {
-    const bool soil_beyond = t + step >= 1 || in_soil(from + (t + step) * way);
-    if (left == never && soil_beyond && t + step < 1) continue;
+    if (t + step >= 1) break;  // that is where the line ends: on an outline
+    const bool soil_beyond = in_soil(from + (t + step) * way);
+    if (left == never && soil_beyond) continue;
     if (left == never) left = t, found.at = from + t * way;
     if (t < left + step)
       found.out.push_back(edge);
@@ -149,12 +150,12 @@ bool Visibility::past_slits(std::int32_t a, std::int32_t b, const Particles& p) 
 }
 
 bool Visibility::sees(std::int32_t a, std::int32_t b, const Particles& p) const {
-  return everywhere_ ||
+  return everywhere() ||
          (walls_.clear(p.position[a], p.position[b], walls_.near(p.position[a])) && past_slits(a, b, p));
 }
 
 bool Visibility::sees_from(const Vec2& point, std::int32_t b, const Particles& p) const {
-  return everywhere_ || !hides(exit(point, p.start[b]));
+  return everywhere() || !hides(exit(point, p.start[b]));
 }
 
 /// Of the particles at the start.

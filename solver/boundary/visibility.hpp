@@ -24,7 +24,10 @@ class Visibility {
              double range, double spacing);
 
   /// In most scenes nothing is hidden from anything within the kernel's range.
-  bool everywhere() const { return everywhere_; }
+  bool everywhere() const { return ghosts_everywhere_ && !has_slits_; }
+  /// No ghost is hidden, and mirroring in one wall after the other makes all; soil may be, past slits and
+  /// gaps.
+  bool ghosts_everywhere() const { return ghosts_everywhere_; }
 
   /// Whether particle a sees particle b.
   bool sees(std::int32_t a, std::int32_t b, const Particles& particles) const;
@@ -57,7 +60,7 @@ class Visibility {
   std::vector<Wall> segments_;               ///< walls, as far as outlines go
   std::vector<std::vector<Polygon>> rings_;  ///< of each soil: outline, then holes
   double range_ = 0, spacing_ = 0;
-  bool has_slits_ = false, everywhere_ = true;
+  bool has_slits_ = false, ghosts_everywhere_ = true;
 };
 
 }  // namespace porosph

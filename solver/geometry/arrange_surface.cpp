@@ -66,7 +66,13 @@ Pieces cut_cells(const Cells& cells, const Region& region, double spacing, std::
       for (int side = 0; side < 4; ++side)
         lengths[side] = length_on_line(rings, cells.side(cell, side), round_off * spacing);
     }
-    pieces.all.push_back({cell, m.area, middle + m.first / m.area});
+    const Point low(cells.column(cell).low, cells.row(cell).low),
+        high(cells.column(cell).high, cells.row(cell).high);
+    const Point centroid = middle + m.first / m.area;
+    const bool whole = m.area > (1 - round_off) * cells.area(cell);
+    pieces.all.push_back(
+        {cell, m.area,
+         whole || at_middle[cell] ? centroid : middle_of_largest_part(region, low, high, centroid)});
   }
   return pieces;
 }

@@ -88,6 +88,14 @@ class SliverJoiner {
 
 }  // namespace
 
+Point middle_of_largest_part(const Region& region, const Point& low, const Point& high,
+                             const Point& centroid) {
+  constexpr double round_off = 1e-9;
+  const std::vector<Region::Part> parts = region.parts_within(low, high);
+  const bool parted = parts.size() > 1 && parts[1].area > round_off * (high - low).prod();
+  return parted ? parts[0].centroid : centroid;
+}
+
 std::vector<Piece> join_slivers(Pieces pieces) { return SliverJoiner(std::move(pieces)).join(); }
 
 }  // namespace porosph

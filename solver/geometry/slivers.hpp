@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
+#include "solver/geometry/region.hpp"
 
 namespace porosph {
 
@@ -28,6 +29,11 @@ struct Pieces {
   double enough_area = 0;              ///< what makes joined slivers a piece of their own [m2]
   double shortest_side = 0;            ///< of those that count, more than round-off [m]
 };
+
+/// The centroid of what a cell holds; where a wall or slit thinner than the cell parts it in two, that of the
+/// larger part, as no particle stands on both sides.
+Point middle_of_largest_part(const Region& region, const Point& low, const Point& high,
+                             const Point& centroid);
 
 /// Joins slivers with the neighbour that they share the longest edge with, the smallest first, until none is
 /// left that has a neighbour. Area and first moments of the whole are kept.

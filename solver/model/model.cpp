@@ -9,6 +9,7 @@
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
+#include "solver/geometry/region.hpp"
 #include "solver/model/initial_velocity.hpp"
 
 namespace porosph {
@@ -55,6 +56,14 @@ void add_k0_stress(const Case& scene, Particles& particles) {
   }
 }
 
+std::vector<Wall> walls_of(const Case& scene, std::span<const Vec2> points) {
+  std::vector<Region> soils;
+  for (const SoilCase& soil : scene.soils) soils.emplace_back(soil.polygon, soil.holes);
+  return make_walls(scene.boundaries, points, 2 * scene.smoothing_length(), [&](const Vec2& place) {
+    return std::any_of(soils.begin(), soils.end(), [&](const Region& r) { return r.contains(place); });
+  });
+}
+
 }  // namespace
 
 Model build_model(const Case& case_as_drawn) {
@@ -72,7 +81,7 @@ Model build_model(const Case& case_as_drawn) {
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
-  model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
+  model.walls = walls_of(scene, model.particles.position);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {

@@ -18,6 +18,7 @@ Simulation stiff_on_soft(int rows, double contrast) {
   SoilCase stiff = scene.soils[0];
   scene.soils[0].youngs_modulus = 1e6, stiff.youngs_modulus = contrast * 1e6;
   scene.soils[0].poissons_ratio = stiff.poissons_ratio = 0.3;
+  scene.soils[0].unit_weight_unsaturated = stiff.unit_weight_unsaturated = 20e3;
   stiff.name = "stiff", stiff.polygon = box_outline(0, depth, 4, top);
   scene.soils.push_back(stiff);
   add_wall(scene, BoundaryKind::fixed, {0, 0}, {4, 0});

@@ -20,10 +20,10 @@ PaperDynamics::PaperDynamics(const FormulationCase& formulation, Model& model, V
       soils_(model),
       skin_(0.2 * model.spacing),
       artificial_exponent_(kernel_.value(0) / kernel_.value(model.spacing)) {
-  if (!model.visibility.everywhere())
+  if (!model.visibility.ghosts_everywhere())
     throw std::runtime_error(
-        "formulation.motion: the paper's forms do not know which particles see each other past slits, thin "
-        "walls and corners of walls; use \"consistent\", or a finer particles.spacing");
+        "formulation.motion: the paper's forms do not know what to do with thin plates and corners "
+        "of walls that are not right angles inwards; use \"consistent\", or a finer particles.spacing");
   make_virtual_particles();
 }
 
@@ -71,6 +71,10 @@ void PaperDynamics::search() {
   points_ = position;
   ghosts_ = Ghosts(model_.walls, fixed_walls_, model_.walls.size(), reach, points_);
   neighbours_ = find_neighbours(points_, n, reach);
+  if (!model_.visibility.everywhere())
+    neighbours_ = kept(neighbours_, [&](std::int32_t a, std::int32_t b) {
+      return b >= static_cast<std::int32_t>(n) || model_.visibility.sees(a, b, model_.particles);
+    });
   wall_neighbours_ = find_neighbours(position, virtual_points_, reach);
   runs_ = make_pair_runs(neighbours_);
   make_room();

@@ -69,7 +69,7 @@ TEST_CASE("bodies that a gap parts see each other once they touch", "[visibility
   Model model = build_model(scene);
   const std::int32_t a = at(model, 1.75, 0.75), b = at(model, 2.65, 0.75);
   CHECK_FALSE(model.visibility.sees(a, b, model.particles));
-  model.particles.position[b].x() -= 0.45;
+  model.particles.position[b].x() -= 0.6;
   CHECK(model.visibility.sees(a, b, model.particles));
 }
 
@@ -79,6 +79,7 @@ TEST_CASE("linear velocities have exact gradients at corners of walls of any ang
   Case inclined = with_outline({{0, 0}, {10, 1.5}, {10, 6.5}, {0, 5}}, spacing);
   add_wall(inclined, BoundaryKind::roller, {0, 0}, {10, 1.5});
   add_wall(inclined, BoundaryKind::roller, {0, 0}, {0, 5});
+  add_wall(inclined, BoundaryKind::roller, {10, 1.5}, {10, 6.5});
   scenes.push_back(inclined);
   for (Case& scene : scenes) {
     scene.particles.arrangement = Arrangement::fitted;
