@@ -101,7 +101,10 @@ Visibility::Exit Visibility::exit(const Vec2& from, const Vec2& to) const {
   Exit found;
   double left = never;
   for (const auto& [t, edge] : crossed) {
-    if (t + step >= 1) break;  // that is where the line ends: on an outline
+    if (t + step >= 1) {  // that is where the line ends: on an outline
+      if (left < never) found.back = edge;
+      break;
+    }
     const bool soil_beyond = in_soil(from + (t + step) * way);
     if (left == never && soil_beyond) continue;
     if (left == never) left = t, found.at = from + t * way;

@@ -38,11 +38,11 @@ class Equilibrium {
   /// Displacements that alternate grow without forces that show: where there are any, they are looked at
   /// again after the same while.
   static bool zigzag_grows(const Simulation& s, RunProgress& progress, double needed) {
-    constexpr double none = 0.02, steady = 1.02;
+    constexpr double small = 0.05, steady = 1.02;
     if (progress.zigzag >= 0 && s.time() - progress.zigzag_at < needed) return true;
     const double before = progress.zigzag, now = measure_zigzag(s.model()).rms;
     progress.zigzag = now, progress.zigzag_at = s.time();
-    return now > none && (before < 0 || now > steady * before);
+    return now > small && (before < 0 || now > steady * before);
   }
 
   double limit_, needed_ = 0, water_rests_ = 0;

@@ -42,7 +42,9 @@ Zigzag measure_zigzag(const Model& model) {
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
     const auto list = near.of(a);
-    if (list.size() < all_around) continue;
+    const auto inside = [&](std::size_t b) { return near.of(b).size() >= all_around; };
+    if (!inside(a) || !std::all_of(list.begin(), list.end(), inside))
+      continue;  // gradients exact for quadratics
     Vec2 foretold = Vec2::Zero();
     for (const std::int32_t b : list) {
       foretold += p.displacement(b) - 0.5 * (gradients[a] + gradients[b]) * (p.start[b] - p.start[a]);
