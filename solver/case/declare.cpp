@@ -73,7 +73,7 @@ void declare(Fields& f, Case& c) {
           c.water, c.water.present());
   f.tables(Key("boundary", "",
                "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
-               "soil; boundaries that meet do so in one line or at an angle of 45 degrees or more."),
+               "soil. Boundaries may meet at any angle at which the soil between them has 30 degrees or more."),
            c.boundaries);
   f.set_defaults([&] {
     if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
