@@ -114,7 +114,7 @@ void write_fem_vtu(const FemSolution& solution, const std::filesystem::path& fil
     writer->SetFileName(temporary.c_str());
     const bool written = writer->Write() != 0;
     if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError)
-      throw WriteError(file, vtkErrorCode::GetStringFromErrorCode(code));
+      throw WriteError(file, words_of(code));
     if (!written || errors->any()) throw WriteError(file, errors->first());
   });
 }

@@ -90,11 +90,10 @@ void write_frame(const fs::path& file, const Frame& frame, const SeriesOptions& 
     writer->SetFileName(temporary.c_str());
     const bool written = writer->Write() != 0;
     if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError) {
-      throw WriteError(file, vtkErrorCode::GetStringFromErrorCode(code));
+      throw WriteError(file, words_of(code));
     }
     if (!written || errors->any()) throw WriteError(file, errors->first());
-    if (!is_complete(temporary))
-      throw WriteError(file, vtkErrorCode::GetStringFromErrorCode(vtkErrorCode::OutOfDiskSpaceError));
+    if (!is_complete(temporary)) throw WriteError(file, words_of(vtkErrorCode::OutOfDiskSpaceError));
   });
 }
 

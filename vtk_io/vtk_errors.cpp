@@ -1,6 +1,9 @@
 #include "vtk_io/vtk_errors.hpp"
 
+#include <vtkErrorCode.h>
+
 #include <string_view>
+#include <system_error>
 
 namespace porosph {
 namespace {
@@ -14,6 +17,12 @@ std::string text_of(std::string_view message) {
 }
 
 }  // namespace
+
+std::string words_of(unsigned long code) {
+  if (code == vtkErrorCode::OutOfDiskSpaceError)
+    return std::make_error_code(std::errc::no_space_on_device).message();
+  return vtkErrorCode::GetStringFromErrorCode(code);
+}
 
 void VtkErrors::watch(vtkObject& object) {
   object.AddObserver(vtkCommand::ErrorEvent, this);

@@ -24,4 +24,7 @@ class VtkErrors : public vtkCommand {
   std::string first_;
 };
 
+/// What a code of vtkErrorCode means, in the words of the system where it has some.
+std::string words_of(unsigned long code);
+
 }  // namespace porosph

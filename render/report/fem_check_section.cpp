@@ -14,11 +14,13 @@ std::string percent(double part) { return std::isfinite(part) ? fmt::format("{:.
 
 std::string table_of(const FemCheck& check) {
   std::vector<std::vector<std::string>> rows = {
-      {"Soil and field", "Difference (relative L2)", "Against the whole field", "At most", "There [m]"}};
+      {"Soil", "Field", "Relative L2", "Of the field", "At most", "At [m]"}};
   for (const auto& [name, soil] : check.soils)
     for (const auto& [field, d] : soil.fields) {
-      const ShownUnit unit = shown_unit(field.substr(0, field.find('_')), d.max_abs);
-      rows.push_back({name + ": " + field, percent(d.relative_l2), percent(d.relative),
+      const auto underscore = field.find('_');
+      const FieldSelection selection{field.substr(0, underscore), field.substr(underscore + 1)};
+      const ShownUnit unit = shown_unit(selection.name, d.max_abs);
+      rows.push_back({name, shown_label(selection, {}), percent(d.relative_l2), percent(d.relative),
                       fmt::format("{:.3g} {}", d.max_abs * unit.factor, unit.name),
                       fmt::format("({:.6g}, {:.6g})", d.x, d.y)});
     }

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace porosph {
@@ -13,6 +14,10 @@ std::string toml_text(const std::string& text) {
   return out.str();
 }
 
-std::string toml_text(const Point& p) { return fmt::format("[{}, {}]", p.x(), p.y()); }
+std::string toml_text(double value) {
+  return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);  // "-0" is a whole number
+}
+
+std::string toml_text(const Point& p) { return fmt::format("[{}, {}]", toml_text(p.x()), toml_text(p.y())); }
 
 }  // namespace porosph

@@ -12,7 +12,7 @@ namespace porosph {
 
 std::string toml_text(const std::string& text);  ///< on one line, with escapes
 std::string toml_text(const Point& point);
-inline std::string toml_text(double value) { return fmt::format("{}", value); }
+std::string toml_text(double value);  ///< all digits; a negative zero keeps its sign
 
 template <class T>
 std::string toml_text(const std::vector<T>& values) {

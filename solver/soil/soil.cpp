@@ -14,10 +14,21 @@ std::vector<Field> history_fields(const Law&) {
 }
 std::vector<Field> history_fields(const std::shared_ptr<const ExternalLaw>& law) { return law->history(); }
 
+template <SoilLaw Law>
+bool yields(const Law&) {
+  return true;
+}
+bool yields(const LinearElastic& law) { return law.no_tension; }
+bool yields(const std::shared_ptr<const ExternalLaw>&) { return true; }
+
 }  // namespace
 
 const Elasticity& Soil::elastic() const {
   return std::visit([](const auto& law) -> const Elasticity& { return elastic_part(law); }, law_);
+}
+
+bool Soil::may_yield() const {
+  return std::visit([](const auto& law) { return yields(law); }, law_);
 }
 
 void Soil::add_history(Particles& particles) {

@@ -15,8 +15,9 @@ class Soil {
 
   const AnyLaw& law() const { return law_; }
   const Elasticity& elastic() const;
-  double shear_modulus() const { return elastic().shear_modulus; }                              ///< G [Pa]
-  double bulk_modulus() const { return elastic().bulk_modulus; }                                ///< K [Pa]
+  bool may_yield() const;                                           ///< false: its step is always elastic
+  double shear_modulus() const { return elastic().shear_modulus; }  ///< G [Pa]
+  double bulk_modulus() const { return elastic().bulk_modulus; }    ///< K [Pa]
   double constrained_modulus() const { return elastic().constrained_modulus(); }                ///< M [Pa]
   double stored_energy(const Stress& stress) const { return elastic().stored_energy(stress); }  ///< [J/m3]
 

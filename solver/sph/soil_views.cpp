@@ -31,7 +31,7 @@ SoilView SoilViews::view() {
     for (const std::size_t place : soil.history())
       fields.push_back(model_.particles.history[place].values.data());
     const void* law = std::visit([](const auto& l) { return address(l); }, soil.law());
-    laws_.push_back({soil.law().index(), law, fields.data(), fields.size()});
+    laws_.push_back({soil.law().index(), law, fields.data(), fields.size(), soil.may_yield()});
   }
   return {ranges_.data(), static_cast<std::int32_t>(ranges_.size()), laws_.data()};
 }

@@ -57,7 +57,7 @@ TEST_CASE("a run at rest says how far it is from finite elements") {
   CHECK_THAT(outcome.out, Contains("soil 'sand' against finite elements: sigma'_"));
   CHECK(outcome.err.empty());
   const auto sand = check_of(place)["soils"]["sand"];
-  CHECK(sand["particles"] == 240);
+  CHECK(sand["particles"] == 252);
   CHECK(sand["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>() < 0.01);
   CHECK(sand["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>() > 1e-5);
   CHECK(place

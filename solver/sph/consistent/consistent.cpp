@@ -23,8 +23,9 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
       soils_(model),
-      control_viscosity_(formulation.zero_energy_control * controlled_rho_c(model) * model.smoothing_length) {
-}
+      control_rho_c_(controlled_rho_c(model)),
+      control_viscosity_(formulation.zero_energy_control * control_rho_c_ * model.smoothing_length),
+      cells_are_cut_(cells_are_cut(model.particles)) {}
 
 void ConsistentDynamics::prepare() {
   const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
@@ -45,7 +46,8 @@ void ConsistentDynamics::rebuild_reference() {
   counts.closures += reference_.closed() ? 1 : 0;
   own_sides_ = find_own_sides(reference_, model_);
   soils_.set_own_sides(own_sides_.place);
-  spring_ = ZeroEnergySpring(formulation_, model_, reference_, own_sides_);
+  spring_ = ZeroEnergySpring(formulation_, model_, control_rho_c_, cells_are_cut_, reference_, own_sides_);
+  yields_.assign(spring_.active() || !own_sides_.empty() ? model_.particles.size() : 0, 0);
   fluxes_ = Fluxes(reference_, model_, spring_.active());
   connect_arrays();
 }
@@ -56,6 +58,7 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.state.stress = &p.stress.data()->xx;
   arrays_.state.density = p.density.data();
   arrays_.state.interface_stress = p.interface_stress.data();
+  arrays_.state.yields = yields_.empty() ? nullptr : yields_.data();
   own_sides_.connect(arrays_.state.own_sides);
   arrays_.state.own_sides.rate = spring_.of_own_sides().data();
   arrays_.control = {.viscosity = control_viscosity_,
@@ -131,6 +134,8 @@ void ConsistentDynamics::strain(double dt) {
   const LargestChange largest = strain_all(dt);
   largest_strain_ = largest.strain;
   travel_ += dt * std::sqrt(largest.speed_squared);
+  if (spring_.active())
+    spring_.slip(reference_, model_.particles, yields_, [&](std::int32_t a) { return own_strain(a); });
 }
 
 void ConsistentDynamics::visit(StateArchive& state) {
@@ -154,6 +159,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
     fluxes_.take_velocities(reference_, p);
   }
   fluxes_.visit(state, reference_);
+  spring_.visit(state, p.size());
   state.value("largest_strain", largest_strain_);
   state.value("travel", travel_);
 }

@@ -44,14 +44,17 @@ class ConsistentDynamics final : public Dynamics {
   CubicSpline<2> kernel_;
   const ConsistentKernels& kernels_;
   SoilViews soils_;
-  double control_viscosity_;  ///< mu of the zero-energy control [Pa s]
+  double control_rho_c_;      ///< of the zero-energy control [kg/(m2 s)]
+  double control_viscosity_;  ///< its mu [Pa s]
+  bool cells_are_cut_;
   ReferenceConfiguration reference_;
   OwnSides own_sides_;
   ZeroEnergySpring spring_;
-  Fluxes fluxes_;              ///< since the reference
-  ConsistentArrays arrays_{};  ///< all these, as the kernels see them
-  double largest_strain_ = 0;  ///< |F - I| since the reference
-  double travel_ = 0;          ///< bound on any particle's path since neighbours were looked at [m]
+  Fluxes fluxes_;               ///< since the reference
+  std::vector<double> yields_;  ///< of particles: as in SoilStateView; empty where nobody asks
+  ConsistentArrays arrays_{};   ///< all these, as the kernels see them
+  double largest_strain_ = 0;   ///< |F - I| since the reference
+  double travel_ = 0;           ///< bound on any particle's path since neighbours were looked at [m]
 };
 
 }  // namespace porosph

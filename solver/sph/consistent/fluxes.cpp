@@ -49,9 +49,8 @@ void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
   // Takes the velocities' place in the records until the next step, when all have been strained.
   const Particles& p = model.particles;
   if (!controlled_[0].empty())
-    spread(r, controlled_, [&](std::size_t a) {
-      return Vec2(p.velocity[a] + spring.of(a, p) * (p.position[a] - r.points[a]));
-    });
+    spread(r, controlled_,
+           [&](std::size_t a) { return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p)); });
   behind_walls_.fill(r, piola_);
   fill_ghost_fluxes(r, p.fill);
 }

@@ -1,34 +1,39 @@
 #include "solver/sph/consistent/zero_energy_spring.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace porosph {
 namespace {
 
-/// Cells of unequal size, as an outline cuts them, do not close the sums of their gradients.
-bool cells_are_cut(const ReferenceConfiguration& r) {
-  const auto [least, most] = std::minmax_element(r.volume.begin(), r.volume.begin() + std::ssize(r.density));
-  return *least < 0.99 * *most;
-}
-
 /// s, by default where something sets off motion that alternates: soils that meet, cut cells, disorder.
-double strength(const FormulationCase& formulation, const ReferenceConfiguration& r, const OwnSides& sides) {
+double strength(const FormulationCase& formulation, bool cut, const ReferenceConfiguration& r,
+                const OwnSides& sides) {
   constexpr double usual = 0.1;  // by the map cases/stability/disorder.toml
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
-  return r.closed() || !sides.empty() || cells_are_cut(r) ? usual : 0;
+  return r.closed() || !sides.empty() || cut ? usual : 0;
 }
 
 }  // namespace
 
-ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Model& model,
-                                   const ReferenceConfiguration& r, const OwnSides& sides)
+bool cells_are_cut(const Particles& p) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const double whole = p.volume(a) / p.fill[a];
+    least = std::min(least, whole), most = std::max(most, whole);
+  }
+  return least < 0.99 * most;
+}
+
+ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Model& model, double rho_c,
+                                   bool cut, const ReferenceConfiguration& r, const OwnSides& sides)
     : place_(sides.place) {
   const Particles& p = model.particles;
-  const double s = strength(formulation, r, sides);
+  const double s = strength(formulation, cut, r, sides);
   active_ = s > 0 && formulation.zero_energy_control > 0;
-  const double lightest = *std::min_element(p.density.begin(), p.density.end());
   // mu = kappa rho c_p h
-  const double rate_per_modulus = s / (lightest * model.wave_speed * model.smoothing_length);
+  const double rate_per_modulus = s / (rho_c * model.smoothing_length);
   for (const Soil& soil : model.soils)
     of_soil_.push_back(active_ ? rate_per_modulus * soil.constrained_modulus() : 0);
   const std::size_t n = r.particles();
@@ -43,17 +48,62 @@ ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Mod
   if (active_ && !sides.empty()) find_unequal_pairs(r, p);
 }
 
+/// With k of each particle, a pair's force on a is 2 w (k_b u_b - k_a u_a) - (k_a S_a + k_b S_b) G. With the
+/// smaller of them for both, it lacks the part of the stiffer one's k that is beyond the softer one's.
 void ZeroEnergySpring::find_unequal_pairs(const ReferenceConfiguration& r, const Particles& p) {
   const auto n = static_cast<std::int32_t>(r.particles());
+  std::vector<std::int32_t> place(r.points.size(), -1);
+  const auto place_of = [&](std::int32_t b) {
+    if (place[b] < 0) {
+      place[b] = static_cast<std::int32_t>(stiffer_.size());
+      stiffer_.push_back(b < n ? Stiffer{b, -1} : Stiffer{r.ghosts.root(b - n), b - n});
+    }
+    return place[b];
+  };
   for (std::int32_t a = 0; a < n; ++a) {
-    const std::size_t before = pairs_.size();
+    const double own = of(a, p);
+    const std::size_t first = excess_.size();
+    Excess of_own{-1, 0, Vec2::Zero()};
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const std::int32_t root = b < n ? b : r.ghosts.root(b - n);
-      if (of(root, p) != of(a, p)) pairs_.push_back({a, root, b < n ? -1 : b - n, g});
+      const double other = of(b < n ? b : r.ghosts.root(b - n), p), excess = std::abs(other - own);
+      if (other > own) {
+        excess_.push_back({place_of(b), 2 * g.w * excess, excess * Vec2(g.x, g.y)});
+      } else if (other < own) {
+        of_own.motion -= 2 * g.w * excess, of_own.gradient += excess * Vec2(g.x, g.y);
+      }
     });
-    if (pairs_.size() > before) first_pair_.push_back(before);
+    if (of_own.motion != 0) {
+      of_own.stiffer = place_of(a);
+      excess_.push_back(of_own);
+    }
+    if (excess_.size() > first) softened_.push_back({a, first});
   }
-  first_pair_.push_back(pairs_.size());
+  softened_.push_back({-1, excess_.size()});
+  strained_.resize(stiffer_.size());
+}
+
+void ZeroEnergySpring::add_softening(const ReferenceConfiguration& r, const Particles& p, double viscosity,
+                                     std::span<Vec2> accelerations) const {
+  const std::size_t count = softened_.empty() ? 0 : softened_.size() - 1;
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < count; ++k) {
+    Vec2 force = Vec2::Zero();
+    for (std::size_t m = softened_[k].first; m < softened_[k + 1].first; ++m) {
+      const Excess& e = excess_[m];
+      const Strained& s = strained_[e.stiffer];
+      force += s.gradient * e.gradient - e.motion * s.motion;
+    }
+    const std::int32_t a = softened_[k].particle;
+    accelerations[a] += viscosity / (p.fill[a] * r.density[a]) * force;
+  }
+}
+
+void ZeroEnergySpring::visit(StateArchive& state, std::size_t particles) {
+  bool slips = !slip_.empty();
+  state.value("spring_slips", slips);
+  if (!slips) return;
+  slip_.resize(particles, Vec2::Zero());
+  state.array("spring_slip", slip_);
 }
 
 }  // namespace porosph

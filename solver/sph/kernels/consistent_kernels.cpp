@@ -71,7 +71,7 @@ void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, s
   });
 }
 
-/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, made anew, so that what
+/// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, summed again, so that what
 /// is constant still has no gradient.
 inline PairGeometry sum_of(const PairGeometry* g, std::int64_t first, std::int64_t) { return g[first]; }
 inline PairGeometry sum_of(const SinglePairGeometry* g, std::int64_t first, std::int64_t last) {
@@ -159,7 +159,8 @@ void rates(const ConsistentArrays& c, std::int32_t number, double* out) {
 /// By value: std::max keeps the loop from becoming vector code.
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// The arrays of a tile, each from the tile's first particle on, and what a step does with them.
+/// The arrays of a tile, each from the tile's first particle on, and what a step does with them. All of it
+/// must be inlined, or the loops over particles do not become vector code.
 struct TileStep {
   TileStep(const ConsistentArrays& c, const TileRange& tile, const Row* rates, Row* piola_rows, double step)
       : particle(tile.first),
@@ -169,6 +170,7 @@ struct TileStep {
         fill(c.reference.fill + tile.first),
         stress(c.state.stress + 4 * tile.first),
         density(c.state.density + tile.first),
+        yields(c.state.yields ? c.state.yields + tile.first : nullptr),
         mu(c.control.viscosity),
         bulk_length(c.control.bulk_length),
         dt(step),
@@ -182,16 +184,16 @@ struct TileStep {
   }
 
   /// Velocity gradient at the middle of the step.
-  Gradient gradient(std::int32_t i) const {
+  [[gnu::always_inline]] Gradient gradient(std::int32_t i) const {
     const double rxx = rate[xx][i], rxy = rate[xy][i], ryx = rate[yx][i], ryy = rate[yy][i];
     return mid_step_gradient({rxx, rxy, ryx, ryy},
                              {deformation[xx][i] + half * rxx, deformation[xy][i] + half * rxy,
                               deformation[yx][i] + half * ryx, deformation[yy][i] + half * ryy});
   }
-  Stress old_stress(std::int32_t i) const {
+  [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
     return {stress[4 * i], stress[4 * i + 1], stress[4 * i + 2], stress[4 * i + 3]};
   }
-  void store_stress(std::int32_t i, const Stress& s) const {
+  [[gnu::always_inline]] void store_stress(std::int32_t i, const Stress& s) const {
     stress[4 * i] = s.xx, stress[4 * i + 1] = s.yy, stress[4 * i + 2] = s.zz, stress[4 * i + 3] = s.xy;
   }
 
@@ -199,7 +201,7 @@ struct TileStep {
   struct Deformed {
     double xx, xy, yx, yy, density;
   };
-  Deformed deform(std::int32_t i, double& strain, double& speed_squared) const {
+  [[gnu::always_inline]] Deformed deform(std::int32_t i, double& strain, double& speed_squared) const {
     const double fxx = deformation[xx][i] + dt * rate[xx][i], fxy = deformation[xy][i] + dt * rate[xy][i];
     const double fyx = deformation[yx][i] + dt * rate[yx][i], fyy = deformation[yy][i] + dt * rate[yy][i];
     deformation[xx][i] = fxx, deformation[xy][i] = fxy, deformation[yx][i] = fyx, deformation[yy][i] = fyy;
@@ -212,14 +214,14 @@ struct TileStep {
   }
 
   /// dF/dt + k (F - I), which the zero-energy control acts on.
-  Gradient controlled(std::int32_t i, const Deformed& f, double k) const {
+  [[gnu::always_inline]] Gradient controlled(std::int32_t i, const Deformed& f, double k) const {
     return {rate[xx][i] + k * (f.xx - 1), rate[xy][i] + k * f.xy, rate[yx][i] + k * f.yx,
             rate[yy][i] + k * (f.yy - 1)};
   }
 
   /// P, and the flux fill P L less the zero-energy control, of the stress `s`.
-  void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus, double dilatation,
-                  const Gradient& control) const {
+  [[gnu::always_inline]] void write_flux(std::int32_t i, const Stress& s, const Deformed& f, double modulus,
+                                         double dilatation, const Gradient& control) const {
     const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * f.density), dilatation);
     const double txx = s.xx + q, tyy = s.yy + q;  // J F^-T is the cofactor matrix of F
     const double pxx = txx * f.yy - s.xy * f.xy, pxy = s.xy * f.xx - txx * f.yx;
@@ -235,14 +237,21 @@ struct TileStep {
 
   std::int32_t particle;  ///< the tile's first
   const double *vx, *vy, *reference_density, *fill;
-  double *stress, *density;
+  double *stress, *density, *yields;
   double mu, bulk_length, dt, half;
   const double *rate[4], *correction[4];
   double *piola[4], *deformation[4], *flux[4];
 };
 
+/// 1 where the law's stress is not that of an elastic step, or else 0.
+[[gnu::always_inline]] inline double departs(const Stress& s, const Stress& elastic) {
+  const double off = std::abs(s.xx - elastic.xx) + std::abs(s.yy - elastic.yy) + std::abs(s.xy - elastic.xy);
+  return off > 1e-9 * (std::abs(elastic.xx) + std::abs(elastic.yy) + std::abs(elastic.xy)) ? 1 : 0;
+}
+
 /// Particles first to last - 1 of the tile, which have this law. `elastic`: k of the control in this soil.
-template <SoilLaw Law>
+/// `watched`: writes down which of them yield.
+template <SoilLaw Law, bool watched>
 LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last, const LawView& view,
                             double elastic) {
   const TileStep t = tile;  // of this function's own: nothing that is written can be part of it
@@ -254,7 +263,8 @@ LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32
   for (std::int32_t i = first; i < last; ++i) {
     const Gradient gradient = t.gradient(i);
     typename Law::History q = load_history<Law>(history, i);
-    const Stress s = law.step(t.old_stress(i), gradient, t.dt, q);
+    const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+    if (watched) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
     store_history<Law>(history, i, q);
     t.store_stress(i, s);
     const TileStep::Deformed f = t.deform(i, strain, speed_squared);
@@ -275,28 +285,31 @@ struct OwnSideStep {
   }
 
   /// A : m for the particle j of this stretch.
-  Gradient own(std::int32_t j, double mxx, double mxy, double myx, double myy) const {
+  [[gnu::always_inline]] Gradient own(std::int32_t j, double mxx, double mxy, double myx, double myy) const {
     return {a[0][j] * mxx + a[1][j] * mxy + a[2][j] * myx + a[3][j] * myy,
             a[4][j] * mxx + a[5][j] * mxy + a[6][j] * myx + a[7][j] * myy,
             a[8][j] * mxx + a[9][j] * mxy + a[10][j] * myx + a[11][j] * myy,
             a[12][j] * mxx + a[13][j] * mxy + a[14][j] * myx + a[15][j] * myy};
   }
   /// The own side's strain rate with the rotation of the sum.
-  Gradient gradient(std::int32_t j, const Gradient& summed) const {
+  [[gnu::always_inline]] Gradient gradient(std::int32_t j, const Gradient& summed) const {
     const Gradient g = own(j, summed.xx, summed.xy, summed.yx, summed.yy);
     const double shear = 0.5 * (g.xy + g.yx), spin = 0.5 * (summed.yx - summed.xy);
     return {g.xx, shear - spin, shear + spin, g.yy};
   }
-  /// Carries tau over the step and adds tau t (x) t to the stress.
-  Stress tied(std::int32_t j, const Stress& s, const Gradient& g, double dt) const {
-    const double tau = interface_stress[j] +
-                       dt * (tie[0][j] * g.xx + tie[1][j] * g.xy + tie[2][j] * g.yx + tie[3][j] * g.yy);
+  /// Carries tau over the step and adds tau t (x) t to the stress. Soil that yields does not hold it: half of
+  /// it goes in each step.
+  [[gnu::always_inline]] Stress tied(std::int32_t j, const Stress& s, const Gradient& g, double dt,
+                                     double yields) const {
+    const double grown = dt * (tie[0][j] * g.xx + tie[1][j] * g.xy + tie[2][j] * g.yx + tie[3][j] * g.yy);
+    const double tau = (1 - 0.5 * yields) * interface_stress[j] + (1 - yields) * grown;
     interface_stress[j] = tau;
     const double x = along_x[j], y = along_y[j];
     return {s.xx + tau * x * x, s.yy + tau * y * y, s.zz, s.xy + tau * x * y};
   }
   /// What the zero-energy control acts on at particle i of the tile.
-  Gradient controlled(const TileStep& t, std::int32_t i, std::int32_t j, const TileStep::Deformed& f) const {
+  [[gnu::always_inline]] Gradient controlled(const TileStep& t, std::int32_t i, std::int32_t j,
+                                             const TileStep::Deformed& f) const {
     const Gradient c = t.controlled(i, f, elastic[j]);
     return own(j, c.xx, c.xy, c.yx, c.yy);
   }
@@ -307,7 +320,7 @@ struct OwnSideStep {
 };
 
 /// As material_step where another soil is near. `place` of the first particle in the own sides.
-template <SoilLaw Law>
+template <SoilLaw Law, bool watched>
 LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, std::int32_t first,
                              std::int32_t last, const LawView& view, std::int32_t place) {
   const TileStep t = tile;
@@ -321,12 +334,14 @@ LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, st
     const std::int32_t i = first + j;
     const Gradient gradient = side.gradient(j, t.gradient(i));
     typename Law::History q = load_history<Law>(history, i);
-    const Stress s = law.step(t.old_stress(i), gradient, t.dt, q);
+    const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+    const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
+    if (watched) t.yields[i] = yields;
     store_history<Law>(history, i, q);
     t.store_stress(i, s);
     const TileStep::Deformed f = t.deform(i, strain, speed_squared);
-    t.write_flux(i, side.tied(j, s, gradient, t.dt), f, law.constrained_modulus(s, q), gradient.trace(),
-                 side.controlled(t, i, j, f));
+    t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, law.constrained_modulus(s, q),
+                 gradient.trace(), side.controlled(t, i, j, f));
   }
   return {strain, speed_squared};
 }
@@ -336,13 +351,15 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep& tile, std
                             std::int32_t last, const LawView& view, double elastic, std::int32_t place) {
   const TileStep t = tile;
   const OwnSideStep side(c, place < 0 ? 0 : t.particle + first, place < 0 ? 0 : place);
+  const auto& law = *static_cast<const ExternalLaw*>(view.law);
   Row gradient[4];
+  std::array<Stress, PairStencils::tile> elastic_stress;
   for (std::int32_t i = first; i < last; ++i) {
     const Gradient summed = t.gradient(i), g = place < 0 ? summed : side.gradient(i - first, summed);
+    elastic_stress[i - first] = law.elastic().elastic_step(t.old_stress(i), g, t.dt);
     gradient[xx].value[i] = g.xx, gradient[xy].value[i] = g.xy;
     gradient[yx].value[i] = g.yx, gradient[yy].value[i] = g.yy;
   }
-  const auto& law = *static_cast<const ExternalLaw*>(view.law);
   double* history[LawView::most_history];
   for (std::size_t k = 0; k < view.history_count; ++k) history[k] = view.history[k] + t.particle + first;
   SoilTile soil{.count = last - first,
@@ -359,13 +376,22 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep& tile, std
                      gradient[yy].value[i]);
     const TileStep::Deformed f = t.deform(i, strain, speed_squared);
     const std::int32_t j = i - first;
+    const double yields = departs(t.old_stress(i), elastic_stress[j]);
+    if (t.yields) t.yields[i] = yields;
     if (place < 0)
       t.write_flux(i, t.old_stress(i), f, modulus, g.trace(), t.controlled(i, f, elastic));
     else
-      t.write_flux(i, side.tied(j, t.old_stress(i), g, t.dt), f, modulus, g.trace(),
+      t.write_flux(i, side.tied(j, t.old_stress(i), g, t.dt, yields), f, modulus, g.trace(),
                    side.controlled(t, i, j, f));
   }
   return {strain, speed_squared};
+}
+
+template <SoilLaw Law, bool watched>
+LargestChange step_of(const ConsistentArrays& c, const TileStep& tile, std::int32_t first, std::int32_t last,
+                      const LawView& law, double elastic, std::int32_t place) {
+  return place < 0 ? material_step<Law, watched>(tile, first, last, law, elastic)
+                   : interface_step<Law, watched>(c, tile, first, last, law, place);
 }
 
 void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestChange& largest) {
@@ -382,8 +408,9 @@ void strain(const ConsistentArrays& c, std::int32_t number, double dt, LargestCh
                     change = external_step(c, step, first, last, law, elastic, place);
                   else
                     with_law(Laws{}, law.kind, [&]<class Law>() {
-                      change = place < 0 ? material_step<Law>(step, first, last, law, elastic)
-                                         : interface_step<Law>(c, step, first, last, law, place);
+                      change = step.yields && law.may_yield
+                                   ? step_of<Law, true>(c, step, first, last, law, elastic, place)
+                                   : step_of<Law, false>(c, step, first, last, law, elastic, place);
                     });
                   largest.strain = std::max(largest.strain, change.strain);
                   largest.speed_squared = std::max(largest.speed_squared, change.speed_squared);

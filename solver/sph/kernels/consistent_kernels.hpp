@@ -48,6 +48,7 @@ struct SoilStateView {
   double* density;         ///< [kg/m3]
   OwnSideView own_sides;
   double* interface_stress;  ///< tau [Pa]
+  double* yields;            ///< 1 where the soil yielded in the last step, or else 0; null: nobody asks
 };
 
 /// What a step leaves for the next forces.

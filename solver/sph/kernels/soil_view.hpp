@@ -16,6 +16,7 @@ struct LawView {
   const void* law;         ///< of that type
   double* const* history;  ///< its fields, per particle
   std::size_t history_count;
+  bool may_yield;
 };
 
 /// Consecutive particles of one soil.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 
@@ -67,6 +68,34 @@ TEST_CASE("a restored simulation goes on to the same bits", "[checkpoint]") {
   REQUIRE(original.exchange_with_last_good() == looked_at);
   REQUIRE(restored.exchange_with_last_good() == looked_at);
   check_same_state(original, restored);
+}
+
+TEST_CASE("soils that meet and yield go on to the same bits", "[checkpoint]") {
+  const int steps_before = GENERATE(1, 40, 133);
+  Case scene = soft_column(Motion::consistent);
+  SoilCase upper = scene.soils[0];
+  scene.soils[0].polygon = box_outline(0, 0, 2, 2), upper.polygon = box_outline(0, 2, 2, 4);
+  upper.name = "upper", upper.youngs_modulus = 5e4, upper.poissons_ratio = 0.1;
+  scene.soils.push_back(upper);
+  scene.soils[0].velocity = Point(0.3, 0);
+  Simulation original(scene), restored(scene);
+  for (Simulation* s : {&original, &restored})
+    s->set_law("upper",
+               DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(5e4, 0.1), 1e3, 20));
+  for (int i = 0; i < steps_before; ++i) original.advance();
+  StateWriter writer;
+  original.visit(writer);
+  StateReader reader(writer.content());
+  restored.visit(reader);
+  reader.finish();
+  for (int i = 0; i < 60; ++i) original.advance(), restored.advance();
+  check_same_state(original, restored);
+  const Particles &p = original.model().particles, &q = restored.model().particles;
+  CHECK(same_bits(p.interface_stress, q.interface_stress));
+  CHECK(p.history[0].values == q.history[0].values);
+  CHECK(std::ranges::any_of(p.history[0].values, [](double strain) { return strain > 1e-3; }));
+  CHECK(std::ranges::any_of(p.interface_stress, [](double tau) { return tau != 0; }));
+  CHECK(original.dynamics().counts.refreshes > 1);
 }
 
 TEST_CASE("a run that is resumed records what the whole run records", "[checkpoint]") {

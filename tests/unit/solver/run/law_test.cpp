@@ -90,3 +90,25 @@ TEST_CASE("a law is given to a soil that there is, and is not stiffer than its t
   CHECK_THROWS_WITH(simulation.set_law("soil", LinearElastic::from_young(16e6, 0.33)),
                     Catch::Contains("but the time step is for"));
 }
+
+TEST_CASE("a stress along an interface stays near the strength of soil that yields there", "[law]") {
+  Case scene = two_layers(Motion::consistent);
+  scene.soils[0].youngs_modulus = 150e6, scene.soils[0].poissons_ratio = 0.1;
+  scene.soils[1].poissons_ratio = 0.45;
+  scene.soils[1].velocity = Point(1.5, 0);
+  const double cohesion = 2e3;
+  Simulation simulation(scene);
+  simulation.set_law(
+      "upper", DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(15e6, 0.45), cohesion, 0));
+  double most = 0;
+  for (int i = 0; i < 600; ++i) {
+    simulation.advance();
+    REQUIRE_FALSE(simulation.instability());
+    const Particles& p = simulation.model().particles;
+    for (std::size_t a = 0; a < p.size(); ++a)
+      if (p.soil[a] == 1) most = std::max(most, std::abs(p.interface_stress[a]));
+  }
+  const std::vector<double>& strain = simulation.model().particles.history[0].values;
+  CHECK(*std::max_element(strain.begin(), strain.end()) > 0.3);
+  CHECK(most < 2.5 * cohesion);  // 3.3 kPa; 184 kPa where it grows on as in elastic soil
+}
