@@ -36,11 +36,10 @@ WallPaths::End WallPaths::end_of(std::size_t w, const Vec2& at) const {
     if (v < w) end.owned = false;
     if (continues) continue;
     const double from = walls_[w].distance(walls_[v].from), to = walls_[w].distance(walls_[v].to);
-    end.corner = true;
+    end.met = static_cast<std::int32_t>(v);
     end.convex = std::max(from, to) > -std::min(from, to);
     end.right = std::abs(cosine) < 1e-4;
   }
-  if (end.corner && !end.convex) end.owned = false;
   return end;
 }
 
@@ -53,7 +52,7 @@ double WallPaths::distance(std::size_t w, const Vec2& place) const {
 bool WallPaths::all_in_sight(std::span<const Vec2> points) const {
   for (const auto& ends : ends_)
     for (const End& end : ends)
-      if (end.corner && !(end.convex && end.right)) return false;
+      if (end.corner() && !(end.convex && end.right)) return false;
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (const Vec2& p : points)
       if (walls_[w].distance(p) < -slack_ && distance(w, p) < range_) return false;
@@ -67,14 +66,17 @@ std::vector<std::int32_t> WallPaths::near(const Vec2& place) const {
   return found;
 }
 
-/// A point of a wall's line belongs to it between its ends. At convex corners all walls are met at once: one
-/// of them owns the end, and a path that has just turned there meets the others.
-bool WallPaths::crosses(std::size_t w, const Vec2& at, const Vec2& turned_at) const {
+/// A point of a wall's line belongs to it between its ends; of walls that meet, one owns the end. At a convex
+/// corner, a path that has just turned there meets the other as well. A re-entrant corner is only met by
+/// lines that lead behind both walls; others pass.
+bool WallPaths::crosses(std::size_t w, const Vec2& at, const Vec2& beyond, const Vec2& turned_at) const {
   const double along = (at - walls_[w].from).dot(direction(walls_[w]));
   const double length = (walls_[w].to - walls_[w].from).norm();
   if (along > slack_ && along < length - slack_) return true;
   if (along < -slack_ || along > length + slack_) return false;
   const End& end = ends_[w][along < 0.5 * length ? 0 : 1];
+  if (end.corner() && !end.convex)
+    return end.owned && std::max(walls_[w].distance(beyond), walls_[end.met].distance(beyond)) < 0;
   return end.owned || (end.convex && (turned_at - end.at).norm() < 2 * slack_);
 }
 
@@ -83,7 +85,7 @@ bool WallPaths::clear(const Vec2& from, const Vec2& to, std::span<const std::int
   return std::none_of(near.begin(), near.end(), [&](std::int32_t w) {
     const double before = walls_[w].distance(from), after = walls_[w].distance(to);
     if (std::abs(before) <= slack_ || std::abs(after) <= slack_ || (before > 0) == (after > 0)) return false;
-    return crosses(w, from + before / (before - after) * (to - from), {nowhere, nowhere});
+    return crosses(w, from + before / (before - after) * (to - from), to, {nowhere, nowhere});
   });
 }
 
@@ -95,7 +97,7 @@ bool WallPaths::leads(const Vec2& from, const Vec2& at, std::size_t image, std::
     const double before = walls_[w].distance(start), after = walls_[w].distance(end);
     if (before < -slack_ || after >= 0) return false;
     const Vec2 crossing = start + std::max(before, 0.0) / (std::max(before, 0.0) - after) * (end - start);
-    if (!crosses(w, crossing, turned_at) || !clear(start, crossing, near)) return false;
+    if (!crosses(w, crossing, end, turned_at) || !clear(start, crossing, near)) return false;
     start = turned_at = crossing;
     end = walls_[w].mirrored(end);
     const auto parent = static_cast<std::size_t>(images[image].parent);

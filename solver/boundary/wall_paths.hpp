@@ -44,13 +44,14 @@ class WallPaths {
  private:
   struct End {
     Vec2 at = Vec2::Zero();
-    bool owned = true;    ///< what crosses just here crosses this wall: the first of those that meet
-    bool corner = false;  ///< another wall meets this one at an angle
-    bool convex = false;  ///< with the soil between them
-    bool right = false;   ///< at a right angle
+    bool owned = true;      ///< what crosses just here crosses this wall: the first of those that meet
+    std::int32_t met = -1;  ///< the wall that meets this one at an angle
+    bool convex = false;    ///< with the soil between them
+    bool right = false;     ///< at a right angle
+    bool corner() const { return met >= 0; }
   };
   End end_of(std::size_t wall, const Vec2& at) const;
-  bool crosses(std::size_t wall, const Vec2& at, const Vec2& turned_at) const;
+  bool crosses(std::size_t wall, const Vec2& at, const Vec2& beyond, const Vec2& turned_at) const;
   double distance(std::size_t wall, const Vec2& place) const;
   std::vector<Image> candidates(std::vector<Vec2>& points) const;
 

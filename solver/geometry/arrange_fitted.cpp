@@ -29,20 +29,16 @@ void cut_cell(const Grid& grid, int cell, const Region& region, std::vector<Poly
     pieces.all.push_back({cell, grid.cell_area(), centre});
     return;
   }
-  const Point centroid = centre + m.first / m.area, half = Point::Constant(grid.spacing / 2);
-  if (fraction < sliver) {
-    SideLengths& sides = pieces.slivers[static_cast<int>(pieces.all.size())];
-    for (int side = 0; side < 4; ++side)
-      sides[side] = length_on_line(row, side_of_cell(grid, cell, side), round_off * grid.spacing);
-  }
-  pieces.all.push_back(
-      {cell, m.area, middle_of_largest_part(region, centre - half, centre + half, centroid)});
+  const Point half = Point::Constant(grid.spacing / 2);
+  for (const std::vector<Polygon>& part : parts_of_cell(row, region, centre - half, centre + half))
+    add_piece(pieces, cell, part, centre, [&](int side) { return side_of_cell(grid, cell, side); });
 }
 
 Pieces cut_cells(const Grid& grid, const Region& region) {
   const std::vector<CellPlace> places = place_cells(grid, region, 1e-6 * grid.spacing);
   Pieces pieces{.all = {},
                 .slivers = {},
+                .stretches = {},
                 .columns = grid.columns,
                 .rows = grid.rows,
                 .enough_area = sliver * grid.cell_area(),

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 
@@ -85,17 +84,20 @@ bool Region::contains(const Point& p) const {
   return distance_to_outline(p) <= 1e-9 * size() || strictly_inside(p, rings_);
 }
 
-std::vector<Region::Part> Region::parts_within(const Point& low, const Point& high) const {
+std::vector<std::vector<Polygon>> Region::parts_within(const Point& low, const Point& high) const {
   const bg::model::box<BoostPoint> box(boost_point(low), boost_point(high));
   bg::model::multi_polygon<BoostPolygon> common;
   bg::intersection(boost_polygon(rings_), box, common);
-  std::vector<Part> parts;
-  for (const BoostPolygon& piece : common) {
-    BoostPoint middle(0, 0);
-    bg::centroid(piece, middle);
-    parts.push_back({bg::area(piece), {middle.x(), middle.y()}});
+  std::vector<std::vector<Polygon>> parts;
+  for (const BoostPolygon& part : common) {
+    std::vector<Polygon>& rings = parts.emplace_back();
+    const auto append = [&](const auto& ring) {
+      Polygon& points = rings.emplace_back();
+      for (const BoostPoint& p : ring) points.emplace_back(p.x(), p.y());
+    };
+    append(part.outer());
+    for (const auto& hole : part.inners()) append(hole);
   }
-  std::ranges::stable_sort(parts, std::ranges::greater{}, &Part::area);
   return parts;
 }
 

@@ -3,8 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "tests/box_of_soil.hpp"
 
@@ -39,8 +41,8 @@ double angle_of(const Vec2& p) {
 template <class InSoil>
 std::vector<Vec2> lattice(double spacing, InSoil&& in_soil) {
   std::vector<Vec2> points;
-  for (double y = -2.5 + 0.37 * spacing; y < 2.5; y += spacing)
-    for (double x = -2.5 + 0.21 * spacing; x < 2.5; x += spacing)
+  for (double y = -3 + 0.37 * spacing; y < 3; y += spacing)
+    for (double x = -3 + 0.21 * spacing; x < 3; x += spacing)
       if (in_soil(Vec2(x, y))) points.emplace_back(x, y);
   return points;
 }
@@ -77,24 +79,71 @@ struct Scene {
   }
 };
 
+/// In how many ways a place of the disc is seen: as soil, or as the image of soil in walls one after the
+/// other.
+template <class InSoil>
+int ways_to(const Vec2& looked_at, const Vec2& place, const std::vector<Wall>& walls, InSoil&& in_soil) {
+  const WallPaths paths(walls, range);
+  const auto near = paths.near(place);
+  std::vector<Vec2> sources;
+  const std::function<void(const Vec2&, std::size_t, int)> unfold = [&](const Vec2& at, std::size_t last,
+                                                                        int turns) {
+    if (in_soil(at) &&
+        std::none_of(sources.begin(), sources.end(), [&](const Vec2& s) { return (s - at).norm() < 1e-9; }))
+      sources.push_back(at);
+    for (std::size_t w = 0; w < walls.size() && turns < 9; ++w)
+      if (w != last && walls[w].distance(at) < 0) unfold(walls[w].mirrored(at), w, turns + 1);
+  };
+  unfold(looked_at, walls.size(), 0);
+  int ways = 0;
+  for (const Vec2& source : sources) {
+    std::vector<Vec2> points = {source, place};
+    const std::vector<Image> images = paths.append_seen_images(points);
+    ways += (source - looked_at).norm() < 1e-9 && paths.clear(place, source, near);
+    for (std::size_t i = 0; i < images.size(); ++i)
+      ways += roots(images, 2)[i] == 0 && (points[2 + i] - looked_at).norm() < 1e-9 &&
+              paths.leads(place, points[2 + i], i, images, 2, near);
+  }
+  return ways;
+}
+
 }  // namespace
 
-TEST_CASE("a place in a corner of any angle sees its whole disc once", "[wall_paths]") {
-  const double degrees =
-      GENERATE(30., 45., 60., 75., 90., 100., 135., 150., 179., 200., 240., 270., 300., 330.);
-  const double spacing = 0.02, full = std::numbers::pi * range * range;
-  const Scene scene(corner(degrees), lattice(spacing, [&](const Vec2& p) { return angle_of(p) < degrees; }));
-  for (const double part : {0.1, 0.35, 0.5, 0.8})
-    for (const double radius : {0.13, 0.4, 0.75}) {
-      const Vec2 place = at_angle(part * degrees, radius);
-      const Seen seen = scene.seen_from(place);
-      CAPTURE(degrees, part, radius);
-      CHECK(static_cast<double>(seen.places.size()) * spacing * spacing == Approx(full).epsilon(0.01));
-      // Not only as much in all, but in every direction: the sixteenth parts of the disc.
-      std::map<int, int> sectors;
-      for (const Vec2& p : seen.places) ++sectors[static_cast<int>(angle_of(p - place) / 22.5)];
-      for (int k = 0; k < 16; ++k) CHECK(sectors[k] * spacing * spacing == Approx(full / 16).epsilon(0.06));
-    }
+TEST_CASE("a place in a corner of any angle sees each place of its disc once", "[wall_paths]") {
+  const double degrees = GENERATE(30., 36., 45., 60., 75., 90., 100., 120., 135., 150., 179., 200., 225.,
+                                  240., 270., 300., 330.);
+  const std::vector<Wall> walls = corner(degrees);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int trial = 0; trial < 400; ++trial) {
+    const Vec2 place = at_angle(degrees * part(random), 0.9 * part(random));
+    const Vec2 looked_at = place + at_angle(360 * part(random), range * std::sqrt(part(random)));
+    CAPTURE(degrees, place.x(), place.y(), looked_at.x(), looked_at.y());
+    CHECK(ways_to(looked_at, place, walls, [&](const Vec2& p) { return angle_of(p) < degrees; }) == 1);
+  }
+}
+
+TEST_CASE("a place beside a thin plate or a hole sees each place of its disc once", "[wall_paths]") {
+  const double size = GENERATE(0.02, 0.3, 0.8), turn = GENERATE(0., 17.);
+  const auto turned = [&](double x, double y) { return Vec2(x * at_angle(turn) + y * at_angle(turn + 90)); };
+  const auto back = [&](const Vec2& p) { return Vec2(p.dot(at_angle(turn)), p.dot(at_angle(turn + 90))); };
+  const double height = GENERATE(0.25, 3.);
+  const Vec2 half(size / 2, height / 2);
+  const std::array<Vec2, 4> at = {turned(half.x(), half.y()), turned(half.x(), -half.y()),
+                                  turned(-half.x(), -half.y()), turned(-half.x(), half.y())};
+  const std::vector<Wall> walls = {wall(at[0], at[1]), wall(at[1], at[2]), wall(at[2], at[3]),
+                                   wall(at[3], at[0])};
+  const auto in_soil = [&](const Vec2& p) { return (back(p).cwiseAbs() - half).maxCoeff() > 0; };
+  REQUIRE(walls[0].distance(2 * at[0]) > 0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Vec2 place = turned(half.x() + 0.5 * part(random), half.y() + 0.5 * part(random));
+    const Vec2 looked_at = place + Vec2(part(random), part(random));
+    if (!in_soil(place) || (looked_at - place).norm() > range) continue;
+    CAPTURE(size, height, turn, place.x(), place.y(), looked_at.x(), looked_at.y());
+    CHECK(ways_to(looked_at, place, walls, in_soil) == 1);
+  }
 }
 
 TEST_CASE("what stems from another sees what stems from oneself, at the same distances", "[wall_paths]") {
@@ -117,35 +166,15 @@ TEST_CASE("what stems from another sees what stems from oneself, at the same dis
 }
 
 TEST_CASE("soil on both sides of a plate sees its own side, however thin the plate is", "[wall_paths]") {
-  const double thickness = GENERATE(0.02, 0.3, 0.8, 1.7), spacing = 0.02;
+  const double thickness = GENERATE(0.02, 0.3, 0.8, 1.7), spacing = 0.08;
   // Fixed faces above y = 0, the edge below them is free.
   const std::vector<Wall> faces = {wall({0, 0}, {0, 9}), wall({thickness, 9}, {thickness, 0})};
   const Scene scene(
       faces, lattice(spacing, [&](const Vec2& p) { return p.y() < 0 || p.x() < 0 || p.x() > thickness; }));
-  const double full = std::numbers::pi * range * range;
-  const auto area = [&](const Vec2& place) {
+  for (const Vec2& place : {Vec2(-0.1, 1.2), Vec2(thickness + 0.1, 1.2), Vec2(-0.3, 1.6)}) {
     const Seen seen = scene.seen_from(place);
-    for (const std::int32_t b : seen.stems_from)
-      if (place.y() > range) CHECK((scene.points[b].x() < 0) == (place.x() < 0));
-    return static_cast<double>(seen.places.size()) * spacing * spacing;
-  };
-  CHECK(area({-0.1, 1.2}) == Approx(full).epsilon(0.01));
-  CHECK(area({thickness + 0.1, 1.2}) == Approx(full).epsilon(0.01));
-  CHECK(area({-0.1, 0.3}) == Approx(full).epsilon(0.01));
-}
-
-TEST_CASE("a wall may stand behind another", "[wall_paths]") {
-  // A hole of half the range: images of one face are not seen through another.
-  const double half = 0.25, spacing = 0.02;
-  const std::vector<Wall> hole = {wall({half, -half}, {-half, -half}), wall({-half, -half}, {-half, half}),
-                                  wall({-half, half}, {half, half}), wall({half, half}, {half, -half})};
-  const Scene scene(hole, lattice(spacing, [&](const Vec2& p) { return p.cwiseAbs().maxCoeff() > half; }));
-  const double full = std::numbers::pi * range * range;
-  for (const Vec2& place :
-       {Vec2(0, 0.3), Vec2(0.2, 0.35), Vec2(0.3, 0.3), Vec2(-0.5, 0.1), Vec2(0.6, -0.7)}) {
-    CAPTURE(place.x(), place.y());
-    CHECK(static_cast<double>(scene.seen_from(place).places.size()) * spacing * spacing ==
-          Approx(full).epsilon(0.01));
+    CHECK(seen.places.size() > 400);
+    for (const std::int32_t b : seen.stems_from) CHECK((scene.points[b].x() < 0) == (place.x() < 0));
   }
 }
 
@@ -169,7 +198,7 @@ TEST_CASE("a lattice sees through the corner's point once", "[wall_paths]") {
     for (const Vec2& place : soil) {
       if (place.norm() > 1.1) continue;
       const std::vector<Vec2> seen = scene.seen_from(place).places;
-      CHECK(seen.size() == 56);  // cell centres within the range of one, none of them twice
+      CHECK(seen.size() == 57);  // cell centres within the range of one, with itself; none of them twice
       for (std::size_t i = 0; i < seen.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) CHECK((seen[i] - seen[k]).norm() > 0.5 * spacing);
     }
