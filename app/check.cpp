@@ -74,17 +74,39 @@ void print_settings(const Case& scene) {
   print("formulation", std::string(motion_name(scene.formulation.motion)));
 }
 
+std::string softening_text(const StrengthCase& c, double spacing) {
+  if (c.softening == SofteningKind::none) return "";
+  return fmt::format(", softening: plastic strain counts {:.3g} times", spacing / c.softening_length);
+}
+
+/// "; mohr_coulomb, c = 5 kPa, phi = 30, psi = 0 degrees"
+std::string strength_text(const SoilCase& soil, double spacing) {
+  const StrengthCase& c = soil.strength;
+  switch (soil.law) {
+    case LawKind::elastic:
+      return soil.no_tension ? "; no tension and no cohesion, shear strength unlimited in compression" : "";
+    case LawKind::tresca:
+      return fmt::format("; {}, c_u = {:.4g} kPa{}{}", law_name(soil.law), c.undrained_strength / 1e3,
+                         c.growth > 0 ? fmt::format(" and {:.4g} kPa per m of depth", c.growth / 1e3) : "",
+                         softening_text(c, spacing));
+    case LawKind::drucker_prager:
+    case LawKind::mohr_coulomb:
+      break;
+  }
+  return fmt::format("; {}, c = {:.4g} kPa, phi = {:g}, psi = {:g} degrees{}", law_name(soil.law),
+                     c.cohesion / 1e3, c.friction_angle, c.dilation_angle, softening_text(c, spacing));
+}
+
 void print_model(const Simulation& s) {
   const Model& m = s.model();
   print("particles", fmt::format("{}", m.particles.size()));
   const std::vector<SoilVolume> volumes = soil_volumes(m, s.scene());
   for (std::size_t i = 0; i < m.soils.size(); ++i) {
     const SoilCase& soil = s.scene().soils[i];
-    fmt::print(
-        "  {:16}{} of '{}' carry {:.5g} of its {:.5g} m2, K = {:.4g} MPa, G = {:.4g} MPa{}\n", "",
-        volumes[i].particles, soil.name, volumes[i].carried, volumes[i].drawn,
-        m.soils[i].bulk_modulus() / 1e6, m.soils[i].shear_modulus() / 1e6,
-        soil.no_tension ? "; no tension and no cohesion, shear strength unlimited in compression" : "");
+    fmt::print("  {:16}{} of '{}' carry {:.5g} of its {:.5g} m2, K = {:.4g} MPa, G = {:.4g} MPa{}\n", "",
+               volumes[i].particles, soil.name, volumes[i].carried, volumes[i].drawn,
+               m.soils[i].bulk_modulus() / 1e6, m.soils[i].shear_modulus() / 1e6,
+               strength_text(soil, m.spacing));
   }
   print_settings(s.scene());
   print("wave speed c_p", fmt::format("{:.4g} m/s", m.wave_speed));

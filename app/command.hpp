@@ -60,6 +60,7 @@ std::string command_line(const std::string& subcommand, const Arguments& argumen
 int run_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int render_command(const Arguments& arguments);
+int section_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int fem_command(const Arguments& arguments);

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/field_help.hpp"
 #include "app/left_out.hpp"
 #include "app/numbers.hpp"
 #include "app/range.hpp"
@@ -35,7 +36,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
       "place [m] that does not count against finite elements, such as a toe; may be given again")(
       "field", po::value(&o.fields)->value_name("NAME[:COMPONENT]"),
-      "field to draw; may be given again (default: EffectiveStress:YY, TotalStress:YY, Displacement:Y)")(
+      (field_help() + "; may be given again (default: EffectiveStress:YY, TotalStress:YY, Displacement:Y)")
+          .c_str())(
       "time", po::value(&o.time)->value_name("T|last|common")->default_value("last"),
       "the frames nearest to T seconds, the last ones, or those of the last time that both runs have")(
       "allow-different-times", po::bool_switch(&o.different_times),

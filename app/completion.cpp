@@ -7,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/completion_bash.hpp"
 #include "app/shipped_cases.hpp"
+#include "solver/analysis/derived_fields.hpp"
 #include "solver/case/case_keys.hpp"
 #include "solver/particles/field_table.hpp"
 
@@ -33,7 +34,9 @@ Words settings() {
 
 Words selections() {
   Words all;
-  for (const Field& field : field_table()) {
+  std::vector<Field> fields = field_table();
+  fields.insert(fields.end(), derived_field_table().begin(), derived_field_table().end());
+  for (const Field& field : fields) {
     const std::string name(field.name);
     const std::vector<std::string> components = component_names(field.kind);
     if (components.size() < 4) all.push_back(name);

@@ -12,7 +12,7 @@
 #include "solver/reference/fem/demand.hpp"
 #include "solver/reference/fem/solve.hpp"
 #include "solver/run/probe.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/fem_vtu.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"

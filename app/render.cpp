@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/field_help.hpp"
 #include "app/numbers.hpp"
 #include "app/range.hpp"
 #include "render/run/run_panel.hpp"
@@ -29,8 +30,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
   po::options_description options;
   options.add_options()("series", po::value(&o.series)->required(), "a .pvd, or the folder of a run")(
-      "field", po::value(&o.field)->value_name("NAME[:COMPONENT]")->required(),
-      "e.g. EffectiveStress:YY, PorePressure; a vector without component: its magnitude")(
+      "field", po::value(&o.field)->value_name("NAME[:COMPONENT]")->required(), field_help().c_str())(
       "time", po::value(&o.time)->value_name("T|last|all")->default_value("last"),
       "the frame nearest to T seconds, the last frame, or a picture of every frame")(
       "label", po::value(&o.label)->value_name("TEXT"),

@@ -21,7 +21,7 @@ std::map<std::string, std::string> skipped_work(const Simulation& s) {
   const FormulationCase& f = c.formulation;
   const Dynamics::Counts& counts = s.dynamics().counts;
   std::map<std::string, std::string> skipped;
-  if (!c.water.present()) skipped["pore_pressure"] = "the scene is dry";
+  if (!c.water.present() && !c.water.flows()) skipped["pore_pressure"] = "the scene is dry";
   if (c.soils.size() == 1) skipped["moduli_per_particle"] = "there is one soil";
   if (!f.kernel_correction) skipped["kernel_correction"] = "off";
   if (f.artificial_viscosity_alpha == 0 && f.artificial_viscosity_beta == 0)
@@ -36,6 +36,13 @@ std::map<std::string, std::string> skipped_work(const Simulation& s) {
         f.closed_gradients ? fmt::format("needed {} times of {}", counts.closures, counts.refreshes) : "off";
   skipped["neighbour_search"] = fmt::format("{} times in {} steps", counts.searches, s.step());
   return skipped;
+}
+
+std::string tell(const Summary::Seepage& seepage) {
+  std::string text = "water through the faces";
+  for (std::size_t i = 0; i < seepage.through_faces.size(); ++i)
+    text += fmt::format("{} [{}] {:.4g}", i == 0 ? "" : ",", i, seepage.through_faces[i]);
+  return text + fmt::format(" m2/s, out of balance by {:.0e} of what enters\n", std::abs(seepage.imbalance));
 }
 
 std::int64_t peak_memory() {
@@ -75,6 +82,8 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
                       .x = zigzag.where.x(),
                       .y = zigzag.where.y()};
   }
+  if (const FlowRecord* flow = s.model().pore_water->record())
+    summary.seepage = {flow->through_faces, flow->imbalance, flow->newton_steps, flow->krylov_iterations};
   for (const Probe& probe : s.probes()) {
     Summary::Probe& p = summary.probes[probe.name()];
     p.x = probe.start().x(), p.y = probe.start().y();
@@ -103,6 +112,7 @@ std::string tell(const Summary& s) {
     text += fmt::format(
         "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
         s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
+  if (s.seepage) text += tell(*s.seepage);
   for (const auto& [name, probe] : s.probes)
     text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
                         probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);

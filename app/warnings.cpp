@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "solver/boundary/water_face.hpp"
 #include "solver/case/known_limits.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/model/soil_volume.hpp"
@@ -40,7 +41,9 @@ void check_stretches(const Model& model, const Case& scene, std::vector<std::str
     const int stretch = model.water.stretch_at(model.particles.position[i].x());
     if (stretch >= 0 && model.particles.pore_pressure[i] < 0) wets[stretch] = true;
   }
-  for (const WaterFace& face : model.water_faces) wets[face.outside] = true;
+  for (const LoadedSurface& surface : model.loads)
+    if (const auto* water = dynamic_cast<const WaterOnFace*>(surface.load.get()))
+      wets[water->outside()] = true;
   for (std::size_t i = 0; i < stretches.size(); ++i)
     if (!wets[i])
       out.push_back(

@@ -33,7 +33,7 @@ inline void step_by_hand(Dynamics& dynamics, Model& model, double dt, int steps)
       p.velocity[a] += dt * acceleration[a];
       p.position[a] += dt * p.velocity[a];
     }
-    if (model.water.present()) model.water.pore_pressures(p, 0, p.size());
+    if (model.water.present()) model.pore_water->follow(model.water, p, 0, p.size());
     dynamics.strain(dt);
   }
 }

@@ -8,7 +8,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/solve.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 
 namespace porosph {
@@ -23,7 +23,8 @@ Case seen_by_fem(const Case& scene) {
   physics.water = at_rest_from(scene.water, scene.time.end);
   physics.boundaries = scene.boundaries;
   physics.loading = {.gravity = scene.loading.gravity, .gravity_applied = scene.loading.gravity_applied};
-  physics.particles.spacing = physics.time.end = 1;
+  physics.particles.spacing = scene.water.flows() ? scene.particles.spacing : 1;  // kr falls within one
+  physics.time.end = 1;
   return physics;
 }
 

@@ -43,7 +43,7 @@ void PlainDynamics::make_virtual_particles() {
   const auto& walls = model_.walls;
   const Particles& p = model_.particles;
   fixed_walls_ =
-      std::count_if(walls.begin(), walls.end(), [](const Wall& w) { return w.kind == BoundaryKind::fixed; });
+      std::count_if(walls.begin(), walls.end(), [](const Wall& w) { return w.support().carries_shear(); });
   std::vector<Vec2> places = p.position;
   std::vector<Image> images;
   append_images(walls, 0, fixed_walls_, kernel_.support() + skin_, places, images);
@@ -59,7 +59,7 @@ void PlainDynamics::make_virtual_particles() {
     Point b;
     b.x = behind[i];
     b.volume = p.volume(root[i]);
-    b.pressure = model_.water.pore_pressure_behind_wall(p.position[root[i]], b.x);
+    b.pressure = model_.water.pore_pressure(p.position[root[i]].x(), b.x.y());
     virtuals_.push_back(b);
     virtual_wall_.push_back(i < in_fixed ? images[i].wall : virtual_wall_[images[i].parent - p.size()]);
   }
@@ -114,7 +114,7 @@ PlainDynamics::Point PlainDynamics::mirrored(std::size_t ghost) const {
   b.x = wall.mirrored(b.x);
   b.v = r * b.v;
   b.stress = r * b.stress * r;
-  b.pressure = model_.water.pore_pressure_behind_wall(model_.particles.position[ghost_root_[ghost]], b.x);
+  b.pressure = model_.water.pore_pressure(model_.particles.position[ghost_root_[ghost]].x(), b.x.y());
   return b;
 }
 

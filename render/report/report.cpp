@@ -207,10 +207,8 @@ Rows settings_table(const std::vector<LoadedRun>& runs) {
 }
 
 bool all_have(const std::vector<LoadedRun>& runs, const FieldSelection& field) {
-  return std::all_of(runs.begin(), runs.end(), [&](const LoadedRun& r) {
-    return std::any_of(r.last.fields.begin(), r.last.fields.end(),
-                       [&](const auto& f) { return f.name == field.name; });
-  });
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const LoadedRun& r) { return can_show(r.last, field.name); });
 }
 
 std::string pictures_of(const std::vector<ReportPicture>& pictures) {
@@ -314,6 +312,10 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
         FieldSelection{"Displacement", "Y"}})
     if (all_have(runs, field)) contours.push_back(draw_contours(runs, input.fem, field, folder));
   body += html::section("Stress and displacement", pictures_of(contours));
+  if (all_have(runs, {"EffectiveStress", "YY"}))
+    if (auto picture = draw_sections(runs, input.fem, folder))
+      body += html::section("Stress with height", pictures_of({std::move(*picture)}) +
+                                                      "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
 
   std::vector<ReportPicture> histories;
   if (auto picture = draw_histories(input.runs, labels, folder)) histories.push_back(std::move(*picture));

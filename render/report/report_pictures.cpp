@@ -9,6 +9,8 @@
 #include "render/report/comparison.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
+#include "render/run/section_chart.hpp"
+#include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
 namespace {
@@ -26,7 +28,60 @@ std::vector<std::size_t> instants(std::size_t frames) {
   return {chosen.begin(), chosen.end()};
 }
 
+/// The first three places that differ.
+std::vector<double> verticals_of(const Case& scene) {
+  constexpr std::size_t most = 3;
+  std::vector<double> places;
+  for (const ProbeCase& probe : scene.probes)
+    if (places.size() < most && std::ranges::find(places, probe.position.x()) == places.end())
+      places.push_back(probe.position.x());
+  if (!places.empty()) return places;
+  double low = never, high = -never;
+  for (const SoilCase& soil : scene.soils)
+    for (const Point& p : soil.polygon) low = std::min(low, p.x()), high = std::max(high, p.x());
+  return {0.5 * (low + high)};
+}
+
+/// The run's last frame on a vertical; nothing where the soil has left it.
+std::optional<RunSection> vertical_of(const LoadedRun& run, const SectionLine& line,
+                                      const std::vector<FieldSelection>& fields) {
+  try {
+    return section_of(run.run, run.label, run.last, line, 0, fields);
+  } catch (const NoSoil&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
+
+std::optional<ReportPicture> draw_sections(const std::vector<LoadedRun>& runs,
+                                           const std::optional<FemReference>& fem, const fs::path& folder) {
+  const Case& scene = *runs.front().run.scene;
+  const FieldSelection field{"EffectiveStress", "YY"};
+  std::vector<Chart> charts;
+  std::vector<RunSection> all;
+  for (const double x : verticals_of(scene)) {
+    const SectionLine line{.kind = SectionLine::vertical, .points = {}, .at = x};
+    std::vector<RunSection> sections, references;
+    for (const LoadedRun& run : runs)
+      if (auto section = vertical_of(run, line, {field})) sections.push_back(std::move(*section));
+    if (sections.empty()) continue;
+    if (auto exact = exact_section(scene, sections.front())) references.push_back(std::move(*exact));
+    if (fem) references.push_back(fem_section(*fem, sections.front()));
+    charts.push_back(section_chart(line, sections, references, field));
+    charts.back().title = "At " + line.text();
+    all.insert(all.end(), sections.begin(), sections.end());
+    all.insert(all.end(), references.begin(), references.end());
+  }
+  if (charts.empty()) return std::nullopt;
+  save_charts(section_figure({.kind = SectionLine::vertical, .points = {}, .at = 0}, std::move(charts),
+                             shown_name(field) + " with height"),
+              folder / "sections.png");
+  write_file(folder / "sections.csv", section_csv(all, {field}));
+  return ReportPicture{"sections.png", shown_name(field) + " along verticals through the soil",
+                       fmt::format("{} on verticals at the end of {}. The numbers are in sections.csv.",
+                                   shown_name(field), runs.size() == 1 ? "the run" : "each run")};
+}
 
 ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
   const FinishedRun& run = loaded.run;

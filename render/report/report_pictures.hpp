@@ -32,6 +32,13 @@ std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs
                                             const std::vector<std::string>& labels,
                                             const std::filesystem::path& folder);
 
+/// Effective vertical stress with height at the end of all runs, on the verticals through the first three
+/// probes (or through the middle of the soil), with theory and finite elements; and section.csv, which holds
+/// the numbers. None where no vertical meets the soil.
+std::optional<ReportPicture> draw_sections(const std::vector<LoadedRun>& runs,
+                                           const std::optional<FemReference>& fem,
+                                           const std::filesystem::path& folder);
+
 /// The four effective stresses over time at one probe, with what finite elements say; none without histories.
 std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, const FemReference& fem,
                                         const ProbeCase& probe, const std::filesystem::path& folder);

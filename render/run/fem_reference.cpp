@@ -12,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "solver/analysis/derived_fields.hpp"
 #include "solver/case/case_file.hpp"
 #include "vtk_io/read_series.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
@@ -41,6 +42,21 @@ std::map<std::string, std::vector<double>> read_arrays(const std::filesystem::pa
     }
   }
   return arrays;
+}
+
+/// Names and components of the arrays, whose widths were checked.
+std::vector<FrameField> fields_of(vtkPointData& data) {
+  std::vector<FrameField> fields;
+  for (int a = 0; a < data.GetNumberOfArrays(); ++a) {
+    vtkDataArray& array = *data.GetArray(a);
+    const int width = array.GetNumberOfComponents();
+    fields.push_back({array.GetName(),
+                      width == 1   ? std::vector<std::string>{}
+                      : width == 3 ? vector_components
+                                   : tensor_components,
+                      std::vector<double>{}});
+  }
+  return fields;
 }
 
 /// VTK's reader takes sizes from the file as they are and says little: the sizes are looked at first.
@@ -95,6 +111,7 @@ FemReference::FemReference(const std::filesystem::path& folder) : scene_(read_ca
   }
   if (triangles_.empty()) throw ReadError(file, "it holds no triangles");
   arrays_ = read_arrays(file, *grid.GetPointData());
+  fields_ = fields_of(*grid.GetPointData());
   locator_.emplace(mesh_);
 }
 
@@ -119,6 +136,25 @@ std::vector<double> FemReference::values(const FieldSelection& field,
     out.push_back(sum);
   }
   return out;
+}
+
+Frame FemReference::state(const std::vector<Point>& points) const {
+  Frame frame;
+  for (FrameField field : fields_) {
+    const auto width = static_cast<std::size_t>(field.width());
+    std::vector<double> all(width * points.size());
+    for (std::size_t c = 0; c < width; ++c) {
+      const auto one = values({field.name, width == 1 ? "" : field.components[c]}, points);
+      for (std::size_t i = 0; i < one.size(); ++i) all[i * width + c] = one[i];
+    }
+    field.values = std::move(all);
+    frame.fields.push_back(std::move(field));
+  }
+  const auto u_x = values({"Displacement", "X"}, points), u_y = values({"Displacement", "Y"}, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    frame.points.insert(frame.points.end(), {points[i].x() + u_x[i], points[i].y() + u_y[i], 0});
+  if (scene_.water.present()) add_head(frame, scene_.water.unit_weight);
+  return frame;
 }
 
 }  // namespace porosph

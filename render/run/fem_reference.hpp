@@ -24,6 +24,9 @@ class FemReference {
   /// std::runtime_error for a field or component that the reference does not have.
   std::vector<double> values(const FieldSelection& field, const std::vector<Point>& points) const;
 
+  /// All fields at points at t = 0 [m], as a frame at the places to which the points come.
+  Frame state(const std::vector<Point>& points) const;
+
   const Case& scene() const { return scene_; }
 
  private:
@@ -31,6 +34,7 @@ class FemReference {
   Mesh mesh_;
   std::vector<std::array<int, p4::node_count>> triangles_;
   std::map<std::string, std::vector<double>> arrays_;  ///< per node, by FieldSelection::text()
+  std::vector<FrameField> fields_;                     ///< names and components, without values
   std::optional<TriangleLocator> locator_;
 };
 

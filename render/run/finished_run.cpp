@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/analysis/derived_fields.hpp"
 #include "solver/case/case_file.hpp"
 #include "vtk_io/particle_data.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
@@ -56,7 +57,9 @@ bool ends_at_rest(const FinishedRun& run) {
 }
 
 Frame frame_of(const FinishedRun& run, std::size_t frame) {
-  return frame_of(*read_frame(run.series.file(frame)));
+  Frame read = frame_of(*read_frame(run.series.file(frame)));
+  if (run.scene && run.scene->water.present()) add_head(read, run.scene->water.unit_weight);
+  return read;
 }
 
 std::size_t frame_at(const Series& series, double time) {

@@ -10,7 +10,7 @@
 #include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {

@@ -8,10 +8,25 @@
 #include <map>
 #include <stdexcept>
 
+#include "solver/analysis/derived_fields.hpp"
+
 namespace porosph {
 namespace {
 
-bool is_stress(const std::string& field) { return field == "PorePressure" || field.ends_with("Stress"); }
+/// Unit in the files: of the tables, or by the usual names.
+std::string unit_of(const std::string& field) {
+  if (const Field* known = find_shown_field(field)) return std::string(known->unit);
+  return field.ends_with("Stress") ? "Pa" : "-";
+}
+
+/// As the tables have it, "p_w", with subscripts as Canvas draws them, "p_{w}"; empty for an unknown field.
+std::string symbol_of(const std::string& field) {
+  const Field* known = find_shown_field(field);
+  std::string symbol(known == nullptr ? "" : known->symbol);
+  if (const auto mark = symbol.find('_'); mark != std::string::npos)
+    symbol = symbol.substr(0, mark) + "_{" + symbol.substr(mark + 1) + "}";
+  return symbol;
+}
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -50,39 +65,25 @@ std::string file_name(const std::string& text) {
 }
 
 ShownUnit shown_unit(const std::string& field, double largest) {
-  if (is_stress(field)) return {"kPa", 1e-3};
   if (field == "Displacement") return largest < 0.2 ? ShownUnit{"mm", 1e3} : ShownUnit{"m", 1};
-  static const std::map<std::string, std::string> units = {
-      {"Velocity", "m/s"}, {"Density", "kg/m³"}, {"Mass", "kg/m"}, {"SmoothingLength", "m"}};
-  if (field == "Strain") return {"%", 100};
-  const auto found = units.find(field);
-  return {found == units.end() ? "" : found->second, 1};
+  if (field.ends_with("Strain")) return {"%", 100};
+  static const std::map<std::string, ShownUnit> units = {
+      {"Pa", {"kPa", 1e-3}}, {"-", {"", 1}}, {"kg/m3", {"kg/m³", 1}}, {"deg", {"°", 1}}};
+  const std::string unit = unit_of(field);
+  const auto found = units.find(unit);
+  return found == units.end() ? ShownUnit{unit, 1} : found->second;
 }
 
 std::string shown_label(const FieldSelection& selection, const ShownUnit& unit) {
-  static const std::map<std::string, std::string> symbols = {{"EffectiveStress", "σ'"},
-                                                             {"TotalStress", "σ"},
-                                                             {"PorePressure", "p_{w}"},
-                                                             {"Displacement", "u"},
-                                                             {"Velocity", "v"},
-                                                             {"Density", "ρ"},
-                                                             {"Mass", "m"},
-                                                             {"SmoothingLength", "h"},
-                                                             {"DeviatoricStress", "s"},
-                                                             {"ExcessStress", "Δσ'"},
-                                                             {"Strain", "ε"},
-                                                             {"MeanStress", "tr σ' / 3"},
-                                                             {"VonMisesStress", "q"}};
   static const std::map<std::string, std::string> principal = {
       {"S1", "σ'_{1}"}, {"S2", "σ'_{2}"}, {"S3", "σ'_{3}"}};
   if (const auto p = principal.find(selection.component);
       p != principal.end() && selection.name == "PrincipalStress")
     return fmt::format("{} [{}]", p->second, unit.name);
-  const auto found = symbols.find(selection.name);
-  std::string label = found == symbols.end() ? selection.name : found->second;
-  if (found == symbols.end() && !selection.component.empty()) label += " " + selection.component;
-  if (found != symbols.end() && !selection.component.empty())
-    label += "_{" + lower(selection.component) + "}";
+  const std::string symbol = symbol_of(selection.name);
+  std::string label = symbol.empty() ? selection.name : symbol;
+  if (!selection.component.empty())
+    label += symbol.empty() ? " " + selection.component : "_{" + lower(selection.component) + "}";
   if (selection.component.empty() && (selection.name == "Displacement" || selection.name == "Velocity"))
     label = "|" + label + "|";
   return unit.name.empty() ? label : label + " [" + unit.name + "]";
@@ -93,6 +94,12 @@ std::string shown_name(const FieldSelection& selection) {
                                                                 {"ZZ", "out-of-plane "}, {"XY", "shear "},
                                                                 {"X", "horizontal "},    {"Y", "vertical "}};
   const auto& words = known_words();
+  if (const Field* field = find_shown_field(selection.name);
+      selection.component.empty() && !words.contains(selection.name) && field != nullptr) {
+    std::string text(field->words);
+    if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+  }
   static const std::map<std::string, std::string> principal = {{"S1", "Largest principal effective stress"},
                                                                {"S2", "Middle principal effective stress"},
                                                                {"S3", "Smallest principal effective stress"}};
@@ -111,7 +118,8 @@ std::string shown_name(const FieldSelection& selection) {
 
 std::string name_in_sentence(const FieldSelection& selection) {
   const std::string name = shown_name(selection);
-  const bool has_words = !name.starts_with(selection.name) || known_words().contains(selection.name);
+  const bool has_words = !name.starts_with(selection.name) || known_words().contains(selection.name) ||
+                         find_shown_field(selection.name) != nullptr;
   return has_words ? lower(name.substr(0, 1)) + name.substr(1) : name;
 }
 

@@ -5,19 +5,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+
+#include "solver/analysis/derived_fields.hpp"
+#include "solver/case/nearest.hpp"
 
 namespace porosph {
 namespace {
 
-const FrameField& find_field(const Frame& frame, const std::string& name) {
-  std::vector<std::string> known;
-  for (const FrameField& field : frame.fields) {
-    if (field.name == name) return field;
-    known.push_back(field.name);
-  }
-  throw std::runtime_error(
-      fmt::format("the series has no field '{}'; it has {}", name, fmt::join(known, ", ")));
+[[noreturn]] void refuse(const Frame& frame, const std::string& name) {
+  std::vector<std::string> stored, computed = derivable_fields(frame);
+  for (const FrameField& field : frame.fields) stored.push_back(field.name);
+  std::vector<std::string> all = stored;
+  all.insert(all.end(), computed.begin(), computed.end());
+  const std::string meant = nearest(name, all);
+  std::string text = fmt::format("the series has no field '{}'", name);
+  if (const std::string sources = sources_of_field(name); !sources.empty())
+    text += fmt::format(", and not {}, from which it is computed", sources);
+  else if (!meant.empty())
+    text += fmt::format(" (did you mean '{}'?)", meant);
+  text += fmt::format("; it has {}", fmt::join(stored, ", "));
+  if (!computed.empty()) text += fmt::format("; from these are computed {}", fmt::join(computed, ", "));
+  throw std::runtime_error(text);
+}
+
+const FrameField* find_stored(const Frame& frame, const std::string& name) {
+  const auto found = std::ranges::find(frame.fields, name, &FrameField::name);
+  return found == frame.fields.end() ? nullptr : &*found;
 }
 
 std::vector<double> as_doubles(const FrameField& field) {
@@ -45,7 +60,14 @@ FieldSelection parse_selection(const std::string& text) {
 }
 
 std::vector<double> values_of(const Frame& frame, const FieldSelection& selection) {
-  const FrameField& field = find_field(frame, selection.name);
+  std::optional<FrameField> computed;
+  const FrameField* stored = find_stored(frame, selection.name);
+  if (stored == nullptr) {
+    computed = derived_field(frame, selection.name);
+    if (!computed) refuse(frame, selection.name);
+    stored = &*computed;
+  }
+  const FrameField& field = *stored;
   std::vector<double> values = as_doubles(field);
   const auto width = static_cast<std::size_t>(field.width());
   const auto& names = field.components;
@@ -67,8 +89,11 @@ std::vector<double> values_of(const Frame& frame, const FieldSelection& selectio
   return out;
 }
 
-bool has_field(const Frame& frame, const std::string& name) {
-  return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const auto& f) { return f.name == name; });
+bool has_field(const Frame& frame, const std::string& name) { return find_stored(frame, name) != nullptr; }
+
+bool can_show(const Frame& frame, const std::string& name) {
+  const auto computed = derivable_fields(frame);
+  return has_field(frame, name) || std::ranges::find(computed, name) != computed.end();
 }
 
 std::vector<Point> starts_of(const Frame& frame) {

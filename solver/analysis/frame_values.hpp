@@ -21,11 +21,14 @@ struct FieldSelection {
 /// NAME:COMPONENT.
 FieldSelection parse_selection(const std::string& text);
 
-/// One value per particle, as in the file (SI units). Throws std::runtime_error, naming what the frame has,
-/// for an unknown field or component, and for a tensor without a component.
+/// One value per particle, as in the file (SI units), or computed from fields of the frame
+/// (derived_fields.hpp). Throws std::runtime_error, naming what the frame has and what can be computed from
+/// it, for an unknown field or component, and for a tensor without a component.
 std::vector<double> values_of(const Frame& frame, const FieldSelection& selection);
 
+/// Whether the frame itself has the field, and whether it has it or what it is computed from.
 bool has_field(const Frame& frame, const std::string& name);
+bool can_show(const Frame& frame, const std::string& name);
 
 /// Where the particles were at t = 0. Throws std::runtime_error if the frame has no Displacement.
 std::vector<Point> starts_of(const Frame& frame);

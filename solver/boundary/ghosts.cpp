@@ -24,9 +24,8 @@ Ghosts::Ghosts(std::span<const Wall> walls, std::size_t first, std::size_t last,
 Ghosts::Ghosts(std::span<const Wall> walls, std::vector<Image> images, std::size_t particles)
     : walls_(walls), particles_(particles), images_(std::move(images)), root_(roots(images_, particles)) {
   for (const Wall& wall : walls) {
-    const Mat2 r = wall.reflection();
-    reflection_.push_back(r);
-    motion_.push_back(wall.kind == BoundaryKind::fixed ? Mat2(-Mat2::Identity()) : r);
+    reflection_.push_back(wall.reflection());
+    motion_.push_back(wall.support().mirrored_motion(wall.normal));
   }
   for (std::size_t i = 0; i < size(); ++i)
     if (stems_from_ghost(i)) of_ghosts_.push_back(i);

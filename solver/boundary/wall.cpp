@@ -72,9 +72,9 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
   for (Wall& wall : walls) {
     if (in_soil) wall.normal = normal_by_soil(wall, range, in_soil);
     if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, points, range);
-    wall.bears_weight = wall.kind == BoundaryKind::fixed || std::abs(wall.normal.y()) > 1e-9;
+    wall.bears_weight = wall.support().carries_shear() || std::abs(wall.normal.y()) > 1e-9;
   }
-  const auto rank = [](const Wall& w) { return w.kind == BoundaryKind::fixed ? 0 : w.bears_weight ? 1 : 2; };
+  const auto rank = [](const Wall& w) { return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : 2; };
   std::stable_sort(walls.begin(), walls.end(),
                    [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
   for (Wall& wall : walls) {

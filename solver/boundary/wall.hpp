@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/boundary/support.hpp"
 #include "solver/case/case.hpp"
 #include "solver/space/tensor.hpp"
 
@@ -23,7 +24,8 @@ struct Wall {
     return (p - from).dot(normal);
   }  ///< positive on the soil's side [m]
   Vec2 mirrored(const Vec2& p) const { return p - 2 * distance(p) * normal; }
-  Mat2 reflection() const { return Mat2::Identity() - 2 * normal * normal.transpose(); }
+  Mat2 reflection() const { return reflection_in(normal); }
+  const Support& support() const { return support_of(kind); }
   bool faces(const Vec2& p, double range) const;  ///< p lies within `range` in front of the segment
 };
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "solver/case/outline_edges.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/sph/kernel/linear_weights.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
@@ -53,55 +53,35 @@ bool ends_somewhere(const WaterCase& water) {
 
 }  // namespace
 
-std::vector<WaterFace> water_faces(const Case& scene, const Particles& p, double radius) {
-  std::vector<WaterFace> faces;
-  if (!ends_somewhere(scene.water)) return faces;
+Vec2 WaterOnFace::traction(const Vec2& place, const Vec2& normal, double time) const {
+  return (standing_.pore_pressure_under(outside_, place.y(), time) -
+          standing_.pore_pressure_under(inside_, place.y(), time)) *
+         normal;
+}
+
+std::vector<LoadedSurface> water_faces(const Case& scene, const Particles& p, double radius) {
+  if (!ends_somewhere(scene.water)) return {};
   const double beside = 2 * touching * scene.particles.spacing;
   const std::vector<Piece> pieces = cut_edges(scene);
   std::vector<Vec2> middles;
   for (const Piece& piece : pieces) middles.emplace_back((piece.from + piece.to) / 2);
   const NeighbourList near = find_neighbours(middles, p.position, radius);
+  std::map<std::pair<int, int>, LoadedSurface> surfaces;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto found = near.of(i);
     if (found.empty()) continue;
     const std::int32_t nearest = *std::ranges::min_element(
         found, {}, [&](std::int32_t b) { return (p.position[b] - middles[i]).squaredNorm(); });
     const Vec2 within = p.position[nearest] - beside * pieces[i].outward;  // it may lie on the face
-    const int inside = stretch_at(scene.water.stretches, within.x());
-    if (inside == pieces[i].outside) continue;
-    WaterFace face{.outside = pieces[i].outside,
-                   .inside = inside,
-                   .particles = {found.begin(), found.end()},
-                   .weight_from = {},
-                   .weight_to = {}};
-    std::vector<Vec2> places;
-    std::vector<double> volumes;
-    for (const std::int32_t b : found) places.push_back(p.position[b]), volumes.push_back(p.volume(b));
-    face.weight_from = linear_weights(pieces[i].from, places, volumes, radius / 2);
-    face.weight_to = linear_weights(pieces[i].to, places, volumes, radius / 2);
-    faces.push_back(std::move(face));
+    const int outside = pieces[i].outside, inside = stretch_at(scene.water.stretches, within.x());
+    if (inside == outside) continue;
+    LoadedSurface& surface = surfaces[{outside, inside}];
+    if (!surface.load) surface.load = std::make_shared<WaterOnFace>(scene.water, outside, inside);
+    surface.pieces.push_back(surface_piece(pieces[i].from, pieces[i].to, found, p, radius / 2));
   }
+  std::vector<LoadedSurface> faces;
+  for (auto& [stretches, surface] : surfaces) faces.push_back(std::move(surface));
   return faces;
-}
-
-void add_water_pressure(std::span<const WaterFace> faces, const Water& water, const Particles& p,
-                        std::span<Vec2> accelerations) {
-  for (const WaterFace& face : faces) {
-    Vec2 from = Vec2::Zero(), to = Vec2::Zero();
-    for (std::size_t k = 0; k < face.particles.size(); ++k) {
-      from += face.weight_from[k] * p.position[face.particles[k]];
-      to += face.weight_to[k] * p.position[face.particles[k]];
-    }
-    const double y = (from.y() + to.y()) / 2;
-    const double pressure =
-        water.pore_pressure_under(face.outside, y) - water.pore_pressure_under(face.inside, y);
-    if (pressure == 0) continue;
-    const Vec2 way = to - from, force = pressure * Vec2(way.y(), -way.x());  // soil on the left: n is outward
-    for (std::size_t k = 0; k < face.particles.size(); ++k) {
-      const std::int32_t b = face.particles[k];
-      accelerations[b] += (face.weight_from[k] + face.weight_to[k]) / 2 / p.mass[b] * force;
-    }
-  }
 }
 
 }  // namespace porosph

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/case/flow_case.hpp"
 #include "solver/particles/field_table.hpp"
 
 namespace porosph {
@@ -33,7 +34,33 @@ struct ParticlesCase {
   int seed = 1;         ///< of the random displacements
 };
 
-/// One soil: where it is and what it is. Linear elastic (eqs. 26-30), optionally without tension.
+/// How a soil's stress follows its strain. All are linear elastic (eqs. 26-30) until they yield.
+enum class LawKind {
+  elastic,         ///< never yields, optionally without tension
+  drucker_prager,  ///< friction and cohesion by a cone with Mohr and Coulomb's strength in plane strain
+  mohr_coulomb,    ///< friction and cohesion
+  tresca,          ///< undrained clay: a shear strength that does not depend on pressure
+};
+enum class SofteningKind { none, exponential, linear };
+
+/// Strength of a soil whose law yields, of use as its law says.
+struct StrengthCase {
+  double cohesion = 0;              ///< c [Pa]
+  double friction_angle = 0;        ///< phi [degrees]
+  double dilation_angle = 0;        ///< psi [degrees]
+  double tensile_strength = never;  ///< beyond the cone's apex: none other [Pa]
+  double undrained_strength = 0;    ///< c_u at `level` and above [Pa]
+  double growth = 0;                ///< of c_u with depth below it [Pa/m]
+  double level = never;             ///< y; never: the soil's highest point [m]
+  SofteningKind softening = SofteningKind::none;
+  double softening_strain = 0;   ///< plastic shear strain that takes 1 - 1/e, or all, of what softening takes
+  double softening_length = 0;   ///< width of the shear band in which that holds [m]
+  double residual_cohesion = 0;  ///< [Pa]
+  double residual_friction_angle = 0;  ///< [degrees]
+  double sensitivity = 1;              ///< c_u over its residual value
+};
+
+/// One soil: where it is and what it is.
 struct SoilCase {
   std::string name;
   Polygon polygon;
@@ -44,10 +71,14 @@ struct SoilCase {
   double unit_weight_unsaturated = 0;  ///< gamma_unsat, above the water level [N/m3]
   bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
                             ///< unlimited where the mean is compressive
+  Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
+  RetentionCase retention = {};
   Point velocity = Point::Zero();  ///< initial velocity [m/s]
   double angular_velocity = 0;     ///< initial, counter-clockwise about the polygon's middle [rad/s]
   double bending_velocity = 0;     ///< initial, upwards at the tip of a plate clamped at its left end, in the
                                    ///< shape of the first mode [m/s]
+  LawKind law = LawKind::elastic;
+  StrengthCase strength = {};
 };
 
 /// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.
@@ -59,7 +90,10 @@ struct WaterCase {
   double unit_weight = 9810;            ///< gamma_w [N/m3]
   std::vector<WaterStretch> stretches;  ///< at t = 0
   std::vector<Point> level_over_time;   ///< (time, level) of a single stretch, linear between [s, m]
-  bool present() const { return !stretches.empty(); }
+  WaterMode mode = WaterMode::still;
+  std::vector<HydraulicFaceCase> faces;  ///< of water that flows; of those that overlap the last one holds
+  bool present() const { return !stretches.empty(); }  ///< it stands under a level
+  bool flows() const { return mode != WaterMode::still; }
 };
 
 enum class BoundaryKind {

@@ -43,6 +43,7 @@ FormulationCase default_formulation(Motion motion);
 std::string_view arrangement_name(Arrangement arrangement);
 
 /// The name of a momentum form in case files ("consistent").
+std::string_view law_name(LawKind law);
 std::string_view motion_name(Motion motion);
 
 }  // namespace porosph

@@ -15,8 +15,8 @@ class Writer : public Fields {
   void number(const Key& key, double& value, const Range& range) override {
     if (range.contains(value) && value < never)
       line(key, toml_text(value));
-    else if (key.is_used)
-      result += fmt::format("# {} is not set: {}\n", key.name, key.fallback);
+    else
+      unset(key);
   }
   void number_or(const Key& key, double& value, const Range& range, std::string_view word,
                  bool& is_word) override {
@@ -38,7 +38,12 @@ class Writer : public Fields {
   void words(const Key& key, std::vector<std::string>& values, std::span<const std::string>) override {
     line(key, toml_text(values));
   }
-  void point(const Key& key, Point& value) override { line(key, toml_text(value)); }
+  void point(const Key& key, Point& value) override {
+    if (value.allFinite())
+      line(key, toml_text(value));
+    else
+      unset(key);
+  }
   void pairs(const Key& key, std::vector<Point>& values) override {
     if (!values.empty()) line(key, toml_text(values));
   }
@@ -57,6 +62,10 @@ class Writer : public Fields {
   }
 
  private:
+  void unset(const Key& key) {
+    if (key.is_used && key.fallback != "none")
+      result += fmt::format("# {} is not set: {}\n", key.name, key.fallback);
+  }
   void line(const Key& key, const std::string& value) {
     if (!key.is_used) return;
     result += fmt::format("{} = {}", key.name, value);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/case/check_boundaries.hpp"
+#include "solver/case/check_flow.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
@@ -197,6 +198,7 @@ std::string column_fault(const Case& c) {
   const auto [low, high] = box_of(c.soils[0]);
   if (!is_upright_rectangle(c.soils[0])) return "needs a soil that is an upright rectangle";
   if (!c.loading.gravity_applied) return "needs gravity";
+  if (c.water.flows()) return "needs water that stands still";
   if (c.water.present() && (c.water.stretches.size() > 1 || c.water.stretches[0].x_from > low.x() ||
                             c.water.stretches[0].x_to < high.x()))
     return "needs one water level over the whole soil";
@@ -226,6 +228,8 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   for (std::size_t i = 0; i < c.output.fields.size(); ++i)
     if (c.output.fields[i] == "ExcessStress" && c.reference == Reference::none)
       issues.push_back({at("output.fields", i), "is the excess over the exact solution: needs 'reference'"});
+  const Issues of_flow = check_flow_settings(c);
+  issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   if (!c.check.finite_elements_auto && c.check.finite_elements)
     if (const std::string reason = fem_obstacle(c); !reason.empty())
       issues.push_back({"check.finite_elements", "they do not apply: " + reason});
@@ -247,6 +251,8 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   check_probes(c, issues);
   check_stretches(c, issues);
   if (!soils_are_sound) return issues;
+  const Issues of_flow = check_faces(c);
+  issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
   if (c.reference != Reference::none && of_boundaries.empty()) {

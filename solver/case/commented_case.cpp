@@ -60,7 +60,9 @@ class Explainer : public Fields {
              std::span<const std::string> allowed) override {
     line(key, toml_text(values), fmt::format("{}", fmt::join(allowed, ", ")));
   }
-  void point(const Key& key, Point& value) override { line(key, toml_text(value), "[x, y]"); }
+  void point(const Key& key, Point& value) override {
+    line(key, value.allFinite() ? toml_text(value) : "", "[x, y]");
+  }
   void pairs(const Key& key, std::vector<Point>& values) override {
     line(key, values.empty() ? "" : toml_text(values), "[[a, b], ...]");
   }

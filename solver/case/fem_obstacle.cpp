@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "solver/case/case_file.hpp"
+
 namespace porosph {
 
 std::string fem_obstacle(const Case& scene) {
   for (const SoilCase& soil : scene.soils) {
     if (soil.no_tension) return fmt::format("soil '{}' carries no tension, which is not linear", soil.name);
+    if (soil.law != LawKind::elastic)
+      return fmt::format("soil '{}' yields (law = \"{}\"), which is not linear", soil.name,
+                         law_name(soil.law));
     if (soil.velocity != Point::Zero() || soil.angular_velocity != 0 || soil.bending_velocity != 0)
       return fmt::format("soil '{}' has an initial velocity", soil.name);
   }

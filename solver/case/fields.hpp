@@ -44,16 +44,19 @@ struct Range {
 inline Range above(double min, double max) { return {.min = min, .max = max, .min_included = false}; }
 inline Range between(double min, double max) { return {.min = min, .max = max}; }
 // Far beyond any use, yet products of such numbers are finite.
-inline constexpr double farthest = 1e8;   ///< coordinate [m]
-inline constexpr double stiffest = 1e15;  ///< Young's modulus [Pa]
-inline constexpr double heaviest = 1e9;   ///< unit weight [N/m3]
-inline constexpr double longest = 1e9;    ///< time [s]
+inline constexpr double farthest = 1e8;        ///< coordinate [m]
+inline constexpr double stiffest = 1e15;       ///< Young's modulus [Pa]
+inline constexpr double heaviest = 1e9;        ///< unit weight [N/m3]
+inline constexpr double longest = 1e9;         ///< time [s]
+inline constexpr double most_permeable = 1e3;  ///< hydraulic conductivity [m/s]
 
 class Fields;
 void declare(Fields&, Case&);
 void declare(Fields&, ParticlesCase&);
 void declare(Fields&, SoilCase&);
 void declare(Fields&, WaterCase&);
+void declare(Fields&, RetentionCase&);
+void declare(Fields&, HydraulicFaceCase&);
 void declare(Fields&, WaterStretch&);
 void declare(Fields&, BoundaryCase&);
 void declare(Fields&, FormulationCase&);

@@ -102,6 +102,18 @@ void check_disorder(const Case& c, std::vector<std::string>& out) {
                   c.particles.disorder));
 }
 
+void check_flow(const Case& c, std::vector<std::string>& out) {
+  if (c.formulation.motion == Motion::consistent) return;
+  for (const SoilCase& soil : c.soils) {
+    if (soil.law == LawKind::elastic) continue;
+    out.push_back(fmt::format(
+        "formulation.motion = \"{}\" with soil '{}' of law \"{}\": where it flows, the runout depends on "
+        "artificial_viscosity_alpha and the density collapses in time; \"consistent\" knows neither",
+        motion_name(c.formulation.motion), soil.name, law_name(soil.law)));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> known_failures(const Case& scene) {
@@ -111,6 +123,7 @@ std::vector<std::string> known_failures(const Case& scene) {
   check_density_ratio(scene, warnings);
   check_undamped(scene, warnings);
   check_disorder(scene, warnings);
+  check_flow(scene, warnings);
   return warnings;
 }
 

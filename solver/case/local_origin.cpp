@@ -28,9 +28,11 @@ Case moved(Case scene, const Point& by) {
   for (SoilCase& soil : scene.soils) {
     move(soil.polygon, by);
     for (Polygon& hole : soil.holes) move(hole, by);
+    soil.strength.level += by.y();  // infinite where it is the soil's highest point
   }
   for (WaterStretch& s : scene.water.stretches) s.x_from += by.x(), s.x_to += by.x(), s.level += by.y();
   for (Point& p : scene.water.level_over_time) p.y() += by.y();
+  for (HydraulicFaceCase& face : scene.water.faces) face.from += by, face.to += by, face.level += by.y();
   for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
   for (ProbeCase& probe : scene.probes) probe.position += by;
   return scene;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "solver/case/known_limits.hpp"
 #include "solver/case/shapes.hpp"
@@ -12,7 +13,7 @@
 #include "solver/geometry/moments.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/soil/elasticity.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
@@ -160,6 +161,53 @@ void check_rows(const Case& scene, std::vector<std::string>& out) {
   }
 }
 
+/// Of a strength that bears next to nothing: it may be in kPa.
+void check_strength_unit(const Case& scene, std::size_t i, std::string_view name, double value,
+                         std::vector<std::string>& out) {
+  const SoilCase& soil = scene.soils[i];
+  const double weight = likely(soil.unit_weight_saturated) * thickness(soil.polygon);
+  if (value < 1 || value > 1e-3 * weight) return;
+  out.push_back(
+      fmt::format("{} = {:g} Pa is {:.1g} of the soil's weight per area: it looks like a value in "
+                  "kPa: {:g} kPa is {} Pa",
+                  key(i, name), value, value / weight, value, number(value * 1e3)));
+}
+
+/// K0 stress on a level ground that the soil cannot bear: Rankine's limits, and Tresca's.
+void check_k0_strength(const Case& scene, std::size_t i, std::vector<std::string>& out) {
+  const SoilCase& soil = scene.soils[i];
+  const StrengthCase& c = soil.strength;
+  if (!scene.loading.k0_stress || soil.law == LawKind::tresca || c.cohesion > 0) return;
+  const double nu = soil.poissons_ratio, k0 = scene.loading.k0 >= 0 ? scene.loading.k0 : nu / (1 - nu);
+  const double sine = std::sin(c.friction_angle * std::numbers::pi / 180);
+  const double active = (1 - sine) / (1 + sine);
+  if (k0 >= active * (1 - 1e-9) && k0 <= (1 + 1e-9) / active) return;
+  out.push_back(
+      fmt::format("{} = {:g} degrees bears K0 from {:.3g} to {:.3g}, but K0 is {:.3g}: the soil "
+                  "yields in the first step",
+                  key(i, "friction_angle"), c.friction_angle, active, 1 / active, k0));
+}
+
+void check_strength(const Case& scene, std::vector<std::string>& out) {
+  for (std::size_t i = 0; i < scene.soils.size(); ++i) {
+    const SoilCase& soil = scene.soils[i];
+    const StrengthCase& c = soil.strength;
+    if (soil.law == LawKind::elastic) continue;
+    if (scene.loading.gravity_applied) {
+      if (soil.law == LawKind::tresca)
+        check_strength_unit(scene, i, "undrained_strength", c.undrained_strength, out);
+      else
+        check_strength_unit(scene, i, "cohesion", c.cohesion, out);
+      check_k0_strength(scene, i, out);
+    }
+    if (c.softening != SofteningKind::none && scene.particles.spacing > c.softening_length)
+      out.push_back(
+          fmt::format("{} = {:g} m is less than particles.spacing = {:g} m: no shear band is as "
+                      "narrow as that",
+                      key(i, "softening_length"), c.softening_length, scene.particles.spacing));
+  }
+}
+
 double circumference(const SoilCase& soil) {
   double sum = 0;
   const auto add = [&](const Polygon& ring) {
@@ -178,6 +226,7 @@ std::vector<std::string> doubtful_values(const Case& scene) {
     check_weights(scene, warnings);
     check_settlement(scene, warnings);
   }
+  check_strength(scene, warnings);
   check_rows(scene, warnings);
   return warnings;
 }
@@ -188,7 +237,7 @@ Settlement settlement_by_own_weight(const Case& scene) {
   double left = never, right = -never;
   for (const SoilCase& soil : scene.soils)
     for (const Point& p : soil.polygon) left = std::min(left, p.x()), right = std::max(right, p.x());
-  const Water water(scene.water);
+  const StandingWater water(scene.water);
   for (int k = 0; k < vertical_lines; ++k) {
     const double x = left + (right - left) * (k + 0.5) / vertical_lines;
     const double level = water.depth(x, 0);

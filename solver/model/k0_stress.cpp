@@ -24,7 +24,7 @@ struct Overburden {
   double top = -never;  // highest soil above the point [m]
 };
 
-void add_soil(const SoilCase& soil, const Water& water, const Point& p, Overburden& sum) {
+void add_soil(const SoilCase& soil, const StandingWater& water, const Point& p, Overburden& sum) {
   std::vector<double> heights = crossings(soil.polygon, p.x());
   for (const Polygon& hole : soil.holes)
     for (double y : crossings(hole, p.x())) heights.push_back(y);
@@ -41,7 +41,7 @@ void add_soil(const SoilCase& soil, const Water& water, const Point& p, Overburd
 }  // namespace
 
 Stress k0_stress(const Case& scene, const Point& position, double k0) {
-  const Water water(scene.water);
+  const StandingWater water(scene.water);
   Overburden sum;
   for (const SoilCase& soil : scene.soils) add_soil(soil, water, position, sum);
   const double free_water = std::max(0.0, water.depth(position.x(), std::max(sum.top, position.y())));

@@ -6,23 +6,27 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/boundary/water_face.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/model/initial_velocity.hpp"
+#include "solver/model/soil_law.hpp"
+#include "solver/water/steady_water.hpp"
+#include "solver/water/still_water.hpp"
 
 namespace porosph {
 namespace {
 
 /// Of a site that the water level may pass through, as if it were a square [N/m3].
-double unit_weight(const SoilCase& soil, const Water& water, const Site& site) {
+double unit_weight(const SoilCase& soil, const StandingWater& water, const Site& site) {
   const double depth = water.depth(site.position.x(), site.position.y());
   const double wet = std::clamp(0.5 + depth / std::sqrt(site.area), 0.0, 1.0);
   return wet * soil.unit_weight_saturated + (1 - wet) * soil.unit_weight_unsaturated;
 }
 
-Particles make_particles(const Case& scene, const Water& water, const std::vector<Site>& sites) {
+Particles make_particles(const Case& scene, const StandingWater& water, const std::vector<Site>& sites) {
   Particles p;
   for (const Site& site : sites) {
     const SoilCase& soil = scene.soils[site.soil];
@@ -72,15 +76,24 @@ Model build_model(const Case& case_as_drawn) {
   const Case scene = moved(case_as_drawn, -model.origin);
   model.spacing = scene.particles.spacing;
   model.smoothing_length = scene.smoothing_length();
-  model.water = Water(scene.water);
+  model.water = StandingWater(scene.water);
+  model.pore_water = std::make_shared<StillWater>();
   if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
-  for (const SoilCase& s : scene.soils)
-    model.soils.emplace_back(LinearElastic::from_young(s.youngs_modulus, s.poissons_ratio, s.no_tension));
+  for (const SoilCase& s : scene.soils) model.soils.emplace_back(soil_law(s, model.spacing));
 
   model.particles = make_particles(scene, model.water, place_particles(scene));
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
+  for (std::size_t i = 0; i < model.soils.size(); ++i) {
+    model.soils[i].add_history(model.particles);
+    model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
+  }
   if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
+  if (scene.water.flows()) {
+    const auto water = std::make_shared<SteadyWater>(scene, model.particles);
+    water->wet(scene, model.particles);
+    model.pore_water = water;
+  }
   model.walls = walls_of(scene, model.particles.position);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
@@ -88,7 +101,7 @@ Model build_model(const Case& case_as_drawn) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
-  model.water_faces = water_faces(scene, model.particles, 2 * model.smoothing_length);
+  model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);
   model.usual_cause = usual_cause_of_breakdown(scene);
   return model;
 }

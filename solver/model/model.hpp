@@ -1,24 +1,26 @@
 // A case made ready to compute: particles, soils, water and walls.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "solver/boundary/load.hpp"
 #include "solver/boundary/visibility.hpp"
 #include "solver/boundary/wall.hpp"
-#include "solver/boundary/water_face.hpp"
 #include "solver/case/case.hpp"
 #include "solver/particles/particles.hpp"
 #include "solver/soil/soil.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/pore_water.hpp"
 
 namespace porosph {
 
 struct Model {
   Particles particles;
   std::vector<Soil> soils;
-  Water water;
-  std::vector<WaterFace> water_faces;  ///< where water presses on a free surface that it does not enter
+  StandingWater water;                    ///< outside the soil
+  std::shared_ptr<PoreWater> pore_water;  ///< in it; copies of the model share it
+  std::vector<LoadedSurface> loads;
   std::vector<Wall> walls;
   Visibility visibility;         ///< who sees whom past outlines
   double spacing = 0;            ///< dx [m]

@@ -33,7 +33,7 @@ Mirrored mirrored(const Model& model, Motion motion) {
     return all;
   }
   const std::size_t fixed = static_cast<std::size_t>(std::ranges::count(
-      model.walls, BoundaryKind::fixed, [](const Wall& w) { return w.kind; }));  // they come first
+      model.walls, true, [](const Wall& w) { return w.support().carries_shear(); }));  // they come first
   mirror(model, 0, fixed, p.start, p.id, all);
   const Mirrored behind_fixed = all;
   mirror(model, fixed, walls, behind_fixed.points, behind_fixed.particle, all);
@@ -62,7 +62,7 @@ Frame make_boundary_frame(const Simulation& simulation) {
                         {all.points[i].x() + model.origin.x(), all.points[i].y() + model.origin.y(), 0.0});
     const Wall& wall = model.walls[all.wall[i]];
     boundary.push_back(boundary_of(simulation.scene(), model.origin, wall));
-    fixed.push_back(wall.kind == BoundaryKind::fixed);
+    fixed.push_back(wall.support().carries_shear());
   }
   frame.fields = {{"BoundaryId", {}, boundary}, {"Fixed", {}, fixed}, {"ParticleId", {}, all.particle}};
   return frame;

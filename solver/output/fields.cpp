@@ -67,7 +67,31 @@ std::vector<double> principal(const Particles& p) {
   return out;
 }
 
+/// -p_w / gamma_w where the water stands.
+double pressure_head(const Simulation& s, std::size_t i) {
+  const Particles& p = s.model().particles;
+  const FlowRecord* flow = s.model().pore_water->record();
+  return flow != nullptr ? flow->head[i] - p.position[i].y()
+                         : -p.pore_pressure[i] / s.scene().water.unit_weight;
+}
+
+/// Part of the vertical total stress that the pore water carries.
+double pore_pressure_ratio(const Particles& p, std::size_t i) {
+  const double total = total_stress(p, i).yy;
+  return total < 0 && p.pore_pressure[i] < 0 ? p.pore_pressure[i] / total : 0;
+}
+
+/// What flows, zero where the water stands.
+template <class Value>
+std::vector<double> flow_vectors(Simulation& s, Value value) {
+  const FlowRecord* flow = s.model().pore_water->record();
+  return vectors(s.model().particles,
+                 [&](auto i) { return flow != nullptr ? Vec2(value(*flow)[i]) : Vec2(Vec2::Zero()); });
+}
+
 const Particles& particles(Simulation& s) { return s.model().particles; }
+
+const Soil& soil_of(Simulation& s, std::size_t i) { return s.model().soils[particles(s).soil[i]]; }
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all = {
@@ -118,6 +142,49 @@ const std::vector<Reader>& readers() {
        [](Simulation& s) {
          const std::vector<Stress> exact = reference_stress(s);
          return tensors(particles(s), [&](auto i) { return particles(s).stress[i] + exact[i] * -1.0; });
+       }},
+      {particle_fields::yielding.name,
+       [](Simulation& s) {
+         constexpr double on_surface = 1 - 1e-9;
+         return scalars<double>(particles(s), [&](auto i) {
+           return soil_of(s, i).mobilised_strength(particles(s), i) > on_surface ? 1 : 0;
+         });
+       }},
+      {particle_fields::mobilised_friction.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s),
+                                [&](auto i) { return soil_of(s, i).mobilised_friction(particles(s), i); });
+       }},
+      {particle_fields::head.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s), [&](auto i) {
+           return pressure_head(s, i) + particles(s).position[i].y() + s.model().origin.y();
+         });
+       }},
+      {particle_fields::pressure_head.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s), [&](auto i) { return pressure_head(s, i); });
+       }},
+      {particle_fields::saturation.name,
+       [](Simulation& s) {
+         const FlowRecord* flow = s.model().pore_water->record();
+         return scalars<double>(particles(s), [&](auto i) {
+           return flow != nullptr ? flow->saturation[i] : particles(s).pore_pressure[i] < 0 ? 1.0 : 0.0;
+         });
+       }},
+      {particle_fields::darcy_velocity.name,
+       [](Simulation& s) {
+         return flow_vectors(
+             s, [](const FlowRecord& f) -> const auto& { return f.velocity; });
+       }},
+      {particle_fields::hydraulic_gradient.name,
+       [](Simulation& s) {
+         return flow_vectors(
+             s, [](const FlowRecord& f) -> const auto& { return f.gradient; });
+       }},
+      {particle_fields::pore_pressure_ratio.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s), [&](auto i) { return pore_pressure_ratio(particles(s), i); });
        }},
   };
   return all;

@@ -63,6 +63,13 @@ struct Summary {
     double x = 0, y = 0;           ///< where that is [m]
   };
   std::optional<Zigzag> zigzag;
+  /// What water did that flows.
+  struct Seepage {
+    std::vector<double> through_faces;  ///< into the soil through each [[water.face]] of the case [m2/s]
+    double imbalance = 0;               ///< what enters less what leaves, over what enters [-]
+    int newton_steps = 0, krylov_iterations = 0;
+  };
+  std::optional<Seepage> seepage;
   struct Probe {
     double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI

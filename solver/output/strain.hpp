@@ -1,6 +1,7 @@
 // How much the soil has been deformed since the start.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/model/model.hpp"
@@ -17,5 +18,9 @@ struct Strain {
 /// corrected kernel gradients (eqs. 9 and 10) over the particles' positions at t = 0. Where neighbours do not
 /// span the plane it is not a number.
 std::vector<Strain> strain_since_start(const Model& model);
+
+/// The same of particles that were at `start` and are at `position` [m]. `volume`: of each [m2].
+std::vector<Strain> strain_between(std::span<const Vec2> start, std::span<const Vec2> position,
+                                   std::span<const double> volume, double smoothing_length);
 
 }  // namespace porosph

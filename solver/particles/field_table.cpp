@@ -46,11 +46,30 @@ std::vector<std::string> component_names(FieldKind kind) {
 const std::vector<Field>& field_table() {
   using namespace particle_fields;
   static const std::vector<Field> table = [] {
-    std::vector<Field> all = {
-        displacement,     velocity,    effective_stress,  total_stress,     pore_pressure,
-        density,          mass,        smoothing_length,  soil_id,          particle_id,
-        principal_stress, mean_stress, deviatoric_stress, von_mises_stress, strain,
-        excess_stress};
+    std::vector<Field> all = {displacement,
+                              velocity,
+                              effective_stress,
+                              total_stress,
+                              pore_pressure,
+                              density,
+                              mass,
+                              smoothing_length,
+                              soil_id,
+                              particle_id,
+                              principal_stress,
+                              mean_stress,
+                              deviatoric_stress,
+                              von_mises_stress,
+                              strain,
+                              excess_stress,
+                              yielding,
+                              mobilised_friction,
+                              head,
+                              pressure_head,
+                              saturation,
+                              darcy_velocity,
+                              hydraulic_gradient,
+                              pore_pressure_ratio};
     add_history(all, Laws{});
     return all;
   }();

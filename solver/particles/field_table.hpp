@@ -52,6 +52,25 @@ inline constexpr Field excess_stress{"ExcessStress",
                                      "effective stress in excess of theory",
                                      "sigma' less that of the case's exact solution at rest",
                                      FieldKind::symmetric};
+inline constexpr Field yielding{"Yielding", "-", "", "yielding",
+                                "1 where the stress is on the yield surface of the soil's law, or else 0"};
+inline constexpr Field mobilised_friction{
+    "MobilisedFriction", "degrees", "φ_m", "mobilised friction angle",
+    "sin(phi_m) = sin(phi) times the share of the shear strength in use; 0 in soil without friction"};
+
+inline constexpr Field head{"Head", "m", "h", "head",
+                            "of the pore water: psi + y, in the case's coordinates"};
+inline constexpr Field pressure_head{"PressureHead", "m", "ψ", "pressure head",
+                                     "of the pore water, positive below the water table"};
+inline constexpr Field saturation{"Saturation", "-", "S_e", "saturation",
+                                  "effective degree of saturation, 1 below the water table"};
+inline constexpr Field darcy_velocity{"DarcyVelocity",  "m/s",           "w",
+                                      "Darcy velocity", "-K k_r grad h", FieldKind::vector};
+inline constexpr Field hydraulic_gradient{
+    "HydraulicGradient", "-", "i", "hydraulic gradient", "-grad h, the way that water is driven",
+    FieldKind::vector};
+inline constexpr Field pore_pressure_ratio{"PorePressureRatio", "-", "r_u", "pore pressure ratio",
+                                           "-p_w / -(sigma'_yy + p_w), 0 where nothing presses"};
 
 }  // namespace particle_fields
 

@@ -66,7 +66,7 @@ double energy_growth(const Simulation::Energy& now, const RunProgress& progress)
 /// level that moves or presses on a face: there energy tells nothing.
 bool keeps_energy(const Simulation& s) {
   const Case& scene = s.scene();
-  return scene.water.level_over_time.empty() && s.model().water_faces.empty() &&
+  return scene.water.level_over_time.empty() && !scene.water.flows() && s.model().loads.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 

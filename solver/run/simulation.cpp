@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
 #include "solver/run/leapfrog.hpp"
 #include "solver/run/monitor/energy.hpp"
@@ -67,14 +68,14 @@ Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
-      courant_(courant_number(scene, model_)),
-      dt_(time_step_of(scene, model_, courant_)),
-      last_step_(std::llround(std::ceil(scene.time.end / dt_ * (1 - 1e-12)))),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
+  clock_.courant = courant_number(scene, model_);
+  clock_.dt = time_step_of(scene, model_, clock_.courant);
+  clock_.last_step = std::llround(std::ceil(scene.time.end / clock_.dt * (1 - 1e-12)));
   for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
-  closest_at_start_ = closest_distance(model_.particles.position, 2 * model_.spacing);
+  at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
-    bodies_at_start_ = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
+    at_start_.bodies = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
 }
 
 void Simulation::set_law(const std::string& soil, AnyLaw law) {
@@ -88,20 +89,23 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
         fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",
                     soil, changed.constrained_modulus(), old.constrained_modulus()));
   changed.add_history(model_.particles);
+  changed.start_history(model_.particles, static_cast<std::int32_t>(found - soils.begin()));
   old = std::move(changed);
 }
+
+void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
 
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;
   if (time() >= loading.damping_until) return 0;
-  return loading.adaptive_damping ? relaxation_.damping : loading.damping / dt_;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / clock_.dt;
 }
 
 std::span<const Vec2> Simulation::accelerations() {
   if (!accelerations_valid_) {
     dynamics_->prepare();
     dynamics_->accelerations(accelerations_);
-    add_water_pressure(model_.water_faces, model_.water, model_.particles, accelerations_);
+    add_loads(model_.loads, model_.particles, time(), accelerations_);
     accelerations_valid_ = true;
   }
   return accelerations_;
@@ -109,9 +113,9 @@ std::span<const Vec2> Simulation::accelerations() {
 
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
-  if (step_ == 0) return v;
+  if (clock_.step == 0) return v;
   const auto a = accelerations();
-  const Kick kick = half_kick(damping(), dt_);
+  const Kick kick = half_kick(damping(), clock_.dt);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
 }
@@ -119,30 +123,31 @@ std::vector<Vec2> Simulation::velocities() {
 void Simulation::advance() {
   if (instability_) return;
   accelerations();
-  const bool measure = scene_.loading.adaptive_damping && step_ % Relaxation::steps_between == 0;
-  if (measure) before_ = accelerations_;
+  const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
+  const std::vector<Vec2> before = measure ? accelerations_ : std::vector<Vec2>();
   drift();
   accelerations_valid_ = false;
-  ++step_;
+  ++clock_.step;
   if (instability_) return;
-  dynamics_->strain(dt_);
-  if (measure) relaxation_.measure(model_.particles, before_, accelerations(), dt_);
+  dynamics_->strain(clock_.dt);
+  model_.pore_water->flow(model_.water, model_.particles, clock_.dt);
+  if (measure) relaxation_.measure(model_.particles, before, accelerations(), clock_.dt);
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
 void Simulation::drift() {
   Particles& p = model_.particles;
-  const Kick kick = (step_ == 0 ? first_kick : full_kick)(damping(), dt_);
-  const bool wet = model_.water.present();
-  const double then = static_cast<double>(step_ + 1) * dt_;
+  const Kick kick = (clock_.step == 0 ? first_kick : full_kick)(damping(), clock_.dt);
+  const bool wet = model_.pore_water->acts(model_.water);
+  const double then = static_cast<double>(clock_.step + 1) * clock_.dt;
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
   std::int64_t runaways = 0;
 #pragma omp parallel reduction(+ : runaways)
   {
     const auto [first, last] = thread_range(p.size());
-    runaways = move_particles(first, last, kick, dt_, limit, p, accelerations_);
-    if (wet) model_.water.pore_pressures(p, first, last);
+    runaways = move_particles(first, last, kick, clock_.dt, limit, p, accelerations_);
+    if (wet) model_.pore_water->follow(model_.water, p, first, last);
   }
   runaway_ = runaways > 0;
   if (runaway_) name_breakdown(then);
@@ -151,17 +156,18 @@ void Simulation::drift() {
 void Simulation::visit(StateArchive& state) {
   bool prepared = accelerations_valid_;
   Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
-  state.value("step", step_);
+  state.value("step", clock_.step);
   state.value("prepared", prepared);
   state.value("searches", counts_then.searches);
   state.value("refreshes", counts_then.refreshes);
   state.value("closures", counts_then.closures);
   visit_particles(state, model_.particles);
-  for (std::optional<State>* remembered : {&good_, &good_before_}) visit_remembered(state, *remembered);
+  for (std::optional<State>* remembered : {&good_.last, &good_.before}) visit_remembered(state, *remembered);
   state.value("relaxation_stiffness", relaxation_.stiffness);
   state.value("relaxation_inertia", relaxation_.inertia);
   state.value("relaxation_damping", relaxation_.damping);
   dynamics_->visit(state);
+  model_.pore_water->visit(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;
@@ -186,29 +192,29 @@ void Simulation::name_breakdown(double time) {
   if (!throws_off || instability_->cause != Cause::too_fast) return;
   for (const Vec2& x : model_.particles.position)
     if (!x.allFinite()) return;
-  if (auto separation = find_separation(model_, bodies_at_start_, time)) instability_ = std::move(separation);
+  if (auto separation = find_separation(model_, at_start_.bodies, time)) instability_ = std::move(separation);
 }
 
 void Simulation::look_for_breakdown() {
   constexpr double met = 0.25;  // of the smallest distance at the start
-  if (!instability_) instability_ = find_crossing(model_, met * closest_at_start_, time());
+  if (!instability_) instability_ = find_crossing(model_, met * at_start_.closest, time());
   if (!instability_) instability_ = find_beyond_wall(model_, time());
   if (scene_.stop.on_separation && !instability_)
-    instability_ = find_separation(model_, bodies_at_start_, time());
+    instability_ = find_separation(model_, at_start_.bodies, time());
 }
 
 void Simulation::remember() {
-  good_before_ = std::move(good_);
+  good_.before = std::move(good_.last);
   const auto a = accelerations();
-  good_ = State{model_.particles, {a.begin(), a.end()}, step_};
+  good_.last = State{model_.particles, {a.begin(), a.end()}, clock_.step};
 }
 
 bool Simulation::exchange_with_last_good() {
-  std::optional<State>& good = good_before_ ? good_before_ : good_;
+  std::optional<State>& good = good_.before ? good_.before : good_.last;
   if (!good) return false;
   std::swap(model_.particles, good->particles);
   std::swap(accelerations_, good->accelerations);
-  std::swap(step_, good->step);
+  std::swap(clock_.step, good->step);
   accelerations_valid_ = true;
   return true;
 }

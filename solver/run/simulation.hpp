@@ -24,15 +24,18 @@ class Simulation {
   /// Gives a soil another law, before the first step. Throws std::invalid_argument where no soil has that
   /// name, or where the law is stiffer than the soil that sets the time step.
   void set_law(const std::string& soil, AnyLaw law);
+  /// Divides the strength that the case gives its soils by `factor`, from the next step on: c and tan(phi),
+  /// or c_u, and tension. Whatever the soils remember stays. Not part of the state that visit() saves.
+  void reduce_strength(double factor);
 
   /// One leapfrog step. Does nothing once the run has become unstable.
   void advance();
 
-  std::int64_t step() const { return step_; }
-  std::int64_t last_step() const { return last_step_; }  ///< the step that reaches the case's end time
-  double time() const { return static_cast<double>(step_) * dt_; }  ///< [s]
-  double time_step() const { return dt_; }                          ///< [s]
-  double courant() const { return courant_; }  ///< the case's, or less where disorder requires it
+  std::int64_t step() const { return clock_.step; }
+  std::int64_t last_step() const { return clock_.last_step; }  ///< the step that reaches the case's end time
+  double time() const { return static_cast<double>(clock_.step) * clock_.dt; }  ///< [s]
+  double time_step() const { return clock_.dt; }                                ///< [s]
+  double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -77,28 +80,36 @@ class Simulation {
   void drift();
   void name_breakdown(double time);
 
-  Case scene_;
-  Model model_;
-  std::unique_ptr<Dynamics> dynamics_;
-  std::vector<Probe> probes_;
-  double courant_ = 0, dt_ = 0;
-  std::int64_t step_ = 0, last_step_ = 0;
-  std::vector<Vec2> accelerations_;
-  std::vector<Vec2> before_;  ///< accelerations at the start of a step in which relaxation_ measures
-  Relaxation relaxation_;     ///< unused unless the case's damping is adaptive
-  bool accelerations_valid_ = false;
-  std::int64_t bodies_at_start_ = 0;
-  std::optional<Breakdown> instability_;
-  bool runaway_ = false;
-
+  struct Clock {
+    double courant = 0, dt = 0;
+    std::int64_t step = 0, last_step = 0;
+  };
+  struct AtStart {
+    std::int64_t bodies = 0;
+    double closest = 0;  ///< distance of the two nearest particles [m]
+  };
   struct State {
     Particles particles;
     std::vector<Vec2> accelerations;
     std::int64_t step = 0;
   };
+  struct Remembered {
+    std::optional<State> last, before;
+  };
   void visit_remembered(StateArchive& state, std::optional<State>& remembered) const;
-  std::optional<State> good_, good_before_;
-  double closest_at_start_ = 0;  ///< distance of the two nearest particles [m]
+
+  Case scene_;
+  Model model_;
+  std::unique_ptr<Dynamics> dynamics_;
+  std::vector<Probe> probes_;
+  Clock clock_;
+  std::vector<Vec2> accelerations_;
+  bool accelerations_valid_ = false;
+  Relaxation relaxation_;  ///< unused unless the case's damping is adaptive
+  AtStart at_start_;
+  std::optional<Breakdown> instability_;
+  bool runaway_ = false;
+  Remembered good_;
 };
 
 }  // namespace porosph

@@ -14,8 +14,9 @@ namespace porosph {
 /// of vector units, so it may only compute with plain numbers: no call out of line, no branch that selection
 /// cannot replace, no loop that ends early.
 ///
-/// What it remembers of a particle, History, is a struct of doubles that are 0 at the start. The array
-/// `history` describes them in their order, and with that they are in checkpoints and output files.
+/// What it remembers of a particle, History, is a struct of doubles that are 0 at the start, or what
+/// `at_start(position)` says where a law has that. The array `history` describes them in their order, and
+/// with that they are in checkpoints and output files.
 template <class Law, class Space = Plane>
 concept SoilLaw = std::is_trivially_copyable_v<Law> &&
     requires(const Law& law, const Symmetric<Space>& stress, const GradientIn<Space>& gradient, double dt,
@@ -31,6 +32,23 @@ concept SoilLaw = std::is_trivially_copyable_v<Law> &&
   { law.bulk_modulus } -> std::convertible_to<double>;
   { Law::history.size() } -> std::convertible_to<std::size_t>;
 };
+
+/// A law with a limited shear strength.
+template <class Law, class Space = Plane>
+concept YieldingLaw = SoilLaw<Law, Space> &&
+    requires(const Law& law, const Symmetric<Space>& stress, const typename Law::History& q) {
+  /// Measure of the deviator, and the most of it that the law bears at this state [Pa].
+  { law.shear_stress(stress) } -> std::same_as<double>;
+  { law.shear_strength(stress, q) } -> std::same_as<double>;
+  /// Sine of the friction angle at this state.
+  { law.sin_friction(q) } -> std::same_as<double>;
+};
+
+/// Part of the opening that the volume strain of a step closes.
+inline double closing(double opening, double volume_strain) {
+  const double compression = volume_strain < 0 ? -volume_strain : 0;
+  return opening < compression ? opening : compression;
+}
 
 /// Of a law that remembers nothing.
 struct NoHistory {};

@@ -7,6 +7,8 @@
 #include "solver/soil/drucker_prager.hpp"
 #include "solver/soil/external_law.hpp"
 #include "solver/soil/linear_elastic.hpp"
+#include "solver/soil/mohr_coulomb.hpp"
+#include "solver/soil/tresca.hpp"
 
 namespace porosph {
 
@@ -17,7 +19,7 @@ struct LawList {
 };
 
 /// A law's place in this list is its number in the kernels; one of a program's own comes last.
-using Laws = LawList<LinearElastic, DruckerPrager>;
+using Laws = LawList<LinearElastic, DruckerPrager, MohrCoulomb, Tresca>;
 using AnyLaw = Laws::Any;
 
 }  // namespace porosph

@@ -24,6 +24,15 @@ class Soil {
   /// Gives the particles the fields that the law remembers, 0 where they are new. A field of one name is
   /// shared by all soils that have it.
   void add_history(Particles& particles);
+  /// What the law remembers of this soil's particles at t = 0, `soil` being their number for it.
+  void start_history(Particles& particles, std::int32_t soil) const;
+
+  /// Shear stress of a particle over the most that the law bears at its mean stress, at most 1; 0 in soil
+  /// that bears any.
+  double mobilised_strength(const Particles& particles, std::size_t a) const;
+  /// Friction angle at which the particle's stress would be on the yield surface, where the cone's apex stays
+  /// where it is [degrees]; 0 in soil without friction.
+  double mobilised_friction(const Particles& particles, std::size_t a) const;
   /// Places of the law's history in Particles::history.
   const std::vector<std::size_t>& history() const { return history_; }
 

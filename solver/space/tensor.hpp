@@ -86,6 +86,8 @@ struct GradientIn<Solid> {
 
 using Vec2 = VectorIn<Plane>;
 using Mat2 = MatrixIn<Plane>;
+using Vec3 = VectorIn<Solid>;
+using Mat3 = MatrixIn<Solid>;
 using Stress = Symmetric<Plane>;
 using Gradient = GradientIn<Plane>;
 

@@ -1,97 +1,24 @@
-// Still water and the pore pressure it makes.
+// Pore water at rest: as high as the water that stands above the soil.
 #pragma once
 
-#include <algorithm>
+#include <limits>
 
-#include "solver/case/case.hpp"
-#include "solver/particles/particles.hpp"
+#include "solver/water/pore_water.hpp"
 
 namespace porosph {
 
-/// Level of water that moves, at a time [s]: y [m].
-inline double level_at(const WaterCase& water, double time) {
-  const auto& steps = water.level_over_time;
-  const auto next = std::find_if(steps.begin(), steps.end(), [&](const Point& p) { return p.x() > time; });
-  if (next == steps.begin()) return next->y();
-  const Point before = *(next - 1);
-  if (next == steps.end()) return before.y();
-  return before.y() + (next->y() - before.y()) * (time - before.x()) / (next->x() - before.x());
-}
-
-/// The water as it stands at a time [s].
-inline WaterCase at_rest_from(WaterCase water, double time) {
-  if (water.level_over_time.empty()) return water;
-  water.stretches = {{-never, never, level_at(water, time)}};
-  water.level_over_time.clear();
-  return water;
-}
-
-/// The stretch over x, the first if two meet there; -1 where there is none.
-inline int stretch_at(const std::vector<WaterStretch>& stretches, double x) {
-  const auto over = [x](const WaterStretch& s) { return x >= s.x_from && x <= s.x_to; };
-  const auto found = std::find_if(stretches.begin(), stretches.end(), over);
-  return found == stretches.end() ? -1 : static_cast<int>(found - stretches.begin());
-}
-
-/// Hydrostatic water, level per stretch of x.
-class Water {
+/// Hydrostatic pore pressure (eq. 12), whatever the soil does.
+class StillWater final : public PoreWater {
  public:
-  Water() = default;
-  explicit Water(const WaterCase& water) : water_(water), stretches_(water.stretches) {}
-
-  /// Moves the level to where it is at this time [s].
-  void set_time(double time) {
-    if (!water_.level_over_time.empty()) stretches_[0].level = level_at(water_, time);
-  }
-
-  bool present() const { return !stretches_.empty(); }
-  double unit_weight() const { return water_.unit_weight; }  ///< gamma_w [N/m3]
-
-  /// Height of the water level at x above y; negative or -never where the point is dry [m].
-  double depth(double x, double y) const {
-    for (const WaterStretch& s : stretches_)
-      if (x >= s.x_from && x <= s.x_to) return s.level - y;
-    return -never;
-  }
-
-  /// The stretch over x, -1 where there is none.
-  int stretch_at(double x) const { return porosph::stretch_at(stretches_, x); }
-  /// p_w at a height y under a stretch, 0 above its level and without one [Pa].
-  double pore_pressure_under(int stretch, double y) const {
-    return stretch < 0 ? 0 : -water_.unit_weight * std::max(0.0, stretches_[stretch].level - y);
-  }
-
-  /// p_w, negative in compression, zero above the level (eq. 12) [Pa].
-  double pore_pressure(double x, double y) const { return -water_.unit_weight * std::max(0.0, depth(x, y)); }
-
-  /// p_w of particles first to last - 1, where they are now.
-  void pore_pressures(Particles& p, std::size_t first, std::size_t last) const {
-    const bool everywhere =
-        stretches_.size() == 1 && stretches_[0].x_from == -never && stretches_[0].x_to == never;
-    if (everywhere) {
-      const double level = stretches_[0].level, gamma = water_.unit_weight;
-      const double* x = p.position.data()->data();
-      double* pressure = p.pore_pressure.data();
-#pragma omp simd
-      for (std::size_t i = first; i < last; ++i) {
-        const double depth = level - x[2 * i + 1];
-        pressure[i] = depth > 0 ? -gamma * depth : -0.0;
-      }
-    } else {
-      for (std::size_t i = first; i < last; ++i)
-        p.pore_pressure[i] = pore_pressure(p.position[i].x(), p.position[i].y());
-    }
-  }
-
-  /// p_w behind a wall: at the image's height, below the level in front of the wall (a stretch may end there)
-  /// [Pa].
-  double pore_pressure_behind_wall(const Point& particle, const Point& image) const {
-    return pore_pressure(particle.x(), image.y());
-  }
-
- private:
-  WaterCase water_;
-  std::vector<WaterStretch> stretches_;
+  bool acts(const StandingWater& standing) const override { return standing.present(); }
+  double stable_step() const override { return std::numeric_limits<double>::infinity(); }
+  void follow(const StandingWater& standing, Particles& particles, std::size_t first,
+              std::size_t last) const override;
+  void flow(const StandingWater&, Particles&, double) override {}
+  /// At the ghost's height, below the level in front of the wall (a stretch may end there).
+  void fill_ghosts(const StandingWater& standing, const Particles& particles, const Ghosts& ghosts,
+                   std::span<const Vec2> places, std::span<double> pressure) const override;
+  void visit(StateArchive&) override {}
 };
 
 }  // namespace porosph

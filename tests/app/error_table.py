@@ -71,6 +71,28 @@ IN_THE_CASE = [
     ("finite elements for what is not linear", "[[boundary]]", "no_tension = true\n[check]\nfinite_elements = true\n[[boundary]]"),
     ("more frames than anyone wants", "[time]", "[output]\ninterval = 1e-9\n[time]"),
 ]
+WEIGHT = "unit_weight_saturated = 20e3\n"
+PERMEABLE = WEIGHT + "permeability = 1e-5\n"
+STEADY = '[water]\nmode = "steady"\n'
+CLOSED = '[[water.face]]\nkind = "closed"\n'
+ON_TOP = '[[water.face]]\nkind = "head"\nlevel = 3\nfrom = [0, 2]\nto = [4, 2]\n'
+IN_THE_FLOW = [
+    ("permeability of soil whose water stands", WEIGHT, PERMEABLE + "[water]\nlevel = 3\n"),
+    ("flow in soil without permeability", WEIGHT, WEIGHT + STEADY + CLOSED + ON_TOP),
+    ("a part of the outline without a face", WEIGHT, PERMEABLE + STEADY + ON_TOP),
+    ("a face beside the soil", WEIGHT, PERMEABLE + STEADY + CLOSED + ON_TOP.replace("2]", "2.5]")),
+    ("a face with one end", WEIGHT, PERMEABLE + STEADY + CLOSED + ON_TOP.replace("to = [4, 2]\n", "")),
+    ("a head without its level", WEIGHT, PERMEABLE + STEADY + CLOSED + ON_TOP.replace("level = 3\n", "")),
+    ("flow that no head drives", WEIGHT, PERMEABLE + STEADY + CLOSED),
+    ("a water level beside faces", WEIGHT, PERMEABLE + STEADY + "level = 3\n" + CLOSED + ON_TOP),
+    ("retention without all its numbers", WEIGHT,
+     PERMEABLE + 'retention = { model = "van_genuchten", alpha = 2 }\n' + STEADY + CLOSED + ON_TOP),
+    ("flow in one of the paper's forms", WEIGHT,
+     PERMEABLE + STEADY + CLOSED + ON_TOP + '[formulation]\nmotion = "proposed"\n'),
+    ("a body that no head reaches", WEIGHT,
+     PERMEABLE + CLAY.replace("4.2", "6").replace(WEIGHT, PERMEABLE) +
+     '[[boundary]]\nkind = "fixed"\nfrom = [6, 0]\nto = [9, 0]\n' + STEADY + CLOSED + ON_TOP),
+]
 OF_THE_GROUND = [
     ("an outline that crosses itself", OUTLINE, "[[0, 0], [4, 2], [4, 0], [0, 2]]"),
     ("soil without area", OUTLINE, "[[0, 0], [4, 0], [8, 0]]"),
@@ -114,6 +136,8 @@ ON_THE_COMMAND_LINE = [
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
+    ("a section without a line", "section run", {}),
+    ("a section beside the soil", "section run --vertical 9", {}),
 ]
 WITH_FILES = [
     ("a file in the place of the folder", "run case.toml --out file", {"file": "mine"}),
@@ -185,6 +209,7 @@ def main():
     page = HEAD + "".join(f"    {line}\n" for line in CASE.splitlines())
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
     page += table("In the ground", in_a_case(place, program, OF_THE_GROUND))
+    page += table("In the flow of water", in_a_case(place, program, IN_THE_FLOW))
     page += table("Warnings of the case", in_a_case(place, program, WARNED_OF, expected=(0,)))
     page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))
     page += table("With files", by_command(place, program, WITH_FILES))

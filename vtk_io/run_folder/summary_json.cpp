@@ -108,6 +108,13 @@ Json to_json(const Summary& summary) {
     put(zigzag, "largest", summary.zigzag->largest);
     put(zigzag, "x", summary.zigzag->x), put(zigzag, "y", summary.zigzag->y);
   }
+  if (summary.seepage) {
+    Json& seepage = json["seepage"];
+    seepage["through_faces"] = summary.seepage->through_faces;
+    put(seepage, "imbalance", summary.seepage->imbalance);
+    seepage["newton_steps"] = summary.seepage->newton_steps;
+    seepage["krylov_iterations"] = summary.seepage->krylov_iterations;
+  }
   json["probes"] = object_of(summary.probes);
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -147,6 +154,17 @@ class Object {
     for (const auto& item : value) {
       if (!item.is_string()) fail(key, "must be a list of strings", item);
       result.push_back(item.get<std::string>());
+    }
+    return result;
+  }
+
+  std::vector<double> numbers(const std::string& key) const {
+    const auto& value = at(key);
+    std::vector<double> result;
+    if (!value.is_array()) fail(key, "must be a list of numbers", value);
+    for (const auto& item : value) {
+      if (!item.is_number()) fail(key, "must be a list of numbers", item);
+      result.push_back(item.get<double>());
     }
     return result;
   }
@@ -270,6 +288,11 @@ Summary summary_from(const Object& json) {
     const auto zigzag = json.object("zigzag");
     summary.zigzag = {zigzag.number("rms"), zigzag.number("quantile_99"), zigzag.number("largest"),
                       zigzag.number("x"), zigzag.number("y")};
+  }
+  if (json.has("seepage")) {
+    const auto seepage = json.object("seepage");
+    summary.seepage = {seepage.numbers("through_faces"), seepage.number("imbalance"),
+                       seepage.integer<int>("newton_steps"), seepage.integer<int>("krylov_iterations")};
   }
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   if (json.has("warnings")) summary.warnings = json.texts("warnings");

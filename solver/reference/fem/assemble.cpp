@@ -63,10 +63,33 @@ Vectors volume_load(double unit_weight, const TriangleWater& water, const Corner
   return load;
 }
 
+/// What the nodes of one triangle have.
+p4::Values at_nodes(const std::vector<double>& values, const std::array<int, node_count>& nodes) {
+  p4::Values of;
+  for (int a = 0; a < node_count; ++a) of[a] = values[nodes[a]];
+  return of;
+}
+
+/// The same of water that flows: the soil weighs as saturated where psi >= 0.
+Vectors volume_load(const Case& scene, const SoilCase& soil, const p4::Values& pressure,
+                    const p4::Values& pressure_head, const Corners& c) {
+  const double area = twice_area(c[0], c[1], c[2]) / 2;
+  const Eigen::Matrix2d map = gradient_map(c[0], c[1], c[2]);
+  Vectors load = Vectors::Zero();
+  for (const auto& q : p4::quadrature()) {
+    const p4::Values n = p4::values(q.at);
+    const double weight =
+        pressure_head.dot(n) >= 0 ? soil.unit_weight_saturated : soil.unit_weight_unsaturated;
+    if (scene.loading.gravity_applied) load.row(1) -= area * q.weight * weight * n.transpose();
+    load -= area * q.weight * pressure.dot(n) * map * p4::gradients(q.at);
+  }
+  return load;
+}
+
 /// oint p_w n . v over one edge, in `pieces` where p_w has a kink in it; Gauss-Legendre with three points is
-/// exact for degree 5.
-template <class Water>
-Vectors outline_load(const Water& water, const Corners& c, int edge, int pieces = 1) {
+/// exact for degree 5. pressure(y, values of the shape functions) [Pa].
+template <class Pressure>
+Vectors outline_load(Pressure&& pressure, const Corners& c, int edge, int pieces = 1) {
   const Point &from = c[edge], &to = c[(edge + 1) % 3];
   const Point normal_times_length(to.y() - from.y(), from.x() - to.x());
   Vectors load = Vectors::Zero();
@@ -76,8 +99,9 @@ Vectors outline_load(const Water& water, const Corners& c, int edge, int pieces 
       p4::Barycentric at = p4::Barycentric::Zero();
       at[edge] = 1 - part;
       at[(edge + 1) % 3] = part;
-      const double pressure = water.pore_pressure(from.y() + part * (to.y() - from.y()));
-      load += weight * pressure * normal_times_length * p4::values(at).transpose();
+      const p4::Values n = p4::values(at);
+      load +=
+          weight * pressure(from.y() + part * (to.y() - from.y()), n) * normal_times_length * n.transpose();
     }
   return load;
 }
@@ -87,7 +111,11 @@ Vectors outline_load(const Case& scene, const TriangleWater& water, const Corner
   constexpr int pieces = 16;  // the level may cross the edge
   const WaterBeside beside = water_beside(scene.water, c[edge], c[(edge + 1) % 3], (c[0] + c[1] + c[2]) / 3,
                                           1e-3 * scene.particles.spacing);
-  return beside.stretch != nullptr ? outline_load(beside, c, edge, pieces) : outline_load(water, c, edge);
+  const auto of = [](const auto& w) {
+    return [&w](double y, const p4::Values&) { return w.pore_pressure(y); };
+  };
+  return beside.stretch != nullptr ? outline_load(of(beside), c, edge, pieces)
+                                   : outline_load(of(water), c, edge);
 }
 
 Corners corners(const Mesh& mesh, int triangle) {
@@ -136,8 +164,8 @@ Eigen::Matrix2d gradient_map(const Point& a, const Point& b, const Point& c) {
   return sides.inverse();
 }
 
-LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
-                      const std::vector<TriangleWater>& water, const Freedoms& freedoms) {
+LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh, const MeshWater& water,
+                      const Freedoms& freedoms) {
   std::vector<Lame> materials;
   for (const SoilCase& soil : scene.soils) materials.push_back(lame(soil));
   LinearSystem system{Eigen::SparseMatrix<double>(freedoms.unknowns, freedoms.unknowns),
@@ -148,12 +176,27 @@ LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
     const Corners c = corners(mesh, t);
     const int soil = mesh.soils[t];
     add_stiffness(element_stiffness(materials[soil], c), p4mesh.triangles[t], freedoms, lower);
-    add_load(volume_load(unit_weight(scene, scene.soils[soil], water[t]), water[t], c), p4mesh.triangles[t],
-             freedoms, system.load);
+    const auto& nodes = p4mesh.triangles[t];
+    if (water.flows()) {
+      const p4::Values pressure = at_nodes(water.pore_pressure, nodes),
+                       psi = at_nodes(water.pressure_head, nodes);
+      add_load(volume_load(scene, scene.soils[soil], pressure, psi, c), nodes, freedoms, system.load);
+    } else {
+      const TriangleWater& here = water.triangles[t];
+      add_load(volume_load(unit_weight(scene, scene.soils[soil], here), here, c), nodes, freedoms,
+               system.load);
+    }
   }
-  for (const auto& [t, edge] : p4mesh.outline)
-    add_load(outline_load(scene, water[t], corners(mesh, t), edge), p4mesh.triangles[t], freedoms,
-             system.load);
+  for (const auto& [t, edge] : p4mesh.outline) {
+    const auto& nodes = p4mesh.triangles[t];
+    if (water.flows()) {
+      const p4::Values pressure = at_nodes(water.pore_pressure, nodes);
+      const auto of_nodes = [&](double, const p4::Values& n) { return pressure.dot(n); };
+      add_load(outline_load(of_nodes, corners(mesh, t), edge), nodes, freedoms, system.load);
+    } else {
+      add_load(outline_load(scene, water.triangles[t], corners(mesh, t), edge), nodes, freedoms, system.load);
+    }
+  }
   system.stiffness.setFromTriplets(lower.begin(), lower.end());
   return system;
 }

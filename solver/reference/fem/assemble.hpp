@@ -22,9 +22,8 @@ struct LinearSystem {
   Eigen::VectorXd load;                   ///< per metre of width [N/m]
 };
 
-/// One unknown per free direction of a node, as `freedoms` numbers them; `water` has one entry per triangle.
-LinearSystem assemble(const Case&, const Mesh&, const P4Mesh&, const std::vector<TriangleWater>& water,
-                      const Freedoms&);
+/// One unknown per free direction of a node, as `freedoms` numbers them.
+LinearSystem assemble(const Case&, const Mesh&, const P4Mesh&, const MeshWater& water, const Freedoms&);
 
 /// The constant matrix G with d f/d(x, y) = G * d f/d(l1, l2) in the triangle a, b, c [1/m].
 Eigen::Matrix2d gradient_map(const Point& a, const Point& b, const Point& c);

@@ -56,7 +56,7 @@ std::vector<Segment> segments_of(const Case& scene, const Eigen::AlignedBox2d& b
   return segments;
 }
 
-/// All points where the segments end or meet, and where boundaries end.
+/// All points where the segments end or meet, and where boundaries and faces of the water end.
 std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Case& scene) {
   std::vector<Point> points;
   for (const Segment& s : segments) {
@@ -66,6 +66,11 @@ std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Ca
   for (const BoundaryCase& boundary : scene.boundaries) {
     points.push_back(boundary.from);
     points.push_back(boundary.to);
+  }
+  for (const HydraulicFaceCase& face : scene.water.faces) {
+    if (face.everywhere()) continue;
+    points.push_back(face.from);
+    points.push_back(face.to);
   }
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

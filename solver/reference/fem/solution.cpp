@@ -9,8 +9,19 @@
 #include "solver/reference/fem/elasticity.hpp"
 
 namespace porosph {
+namespace {
 
-FemSolution::FemSolution(const Case& scene, Mesh mesh, P4Mesh nodes, std::vector<TriangleWater> water,
+double of_nodes(const std::vector<double>& values, const std::array<int, p4::node_count>& nodes,
+                const p4::Barycentric& at) {
+  const p4::Values n = p4::values(at);
+  double sum = 0;
+  for (int i = 0; i < p4::node_count; ++i) sum += values[nodes[i]] * n[i];
+  return sum;
+}
+
+}  // namespace
+
+FemSolution::FemSolution(const Case& scene, Mesh mesh, P4Mesh nodes, MeshWater water,
                          Eigen::Matrix2Xd displacement)
     : soils_(scene.soils),
       mesh_(std::move(mesh)),
@@ -49,7 +60,10 @@ FemPoint FemSolution::in_triangle(int triangle, const p4::Barycentric& at) const
   reading.displacement = u * p4::values(at);
   const Eigen::Matrix2d gradient = u * (gradient_map(a, b, c) * p4::gradients(at)).transpose();
   reading.effective_stress = plane_strain_stress(lame(soils_[reading.soil]), gradient);
-  reading.pore_pressure = water_[triangle].pore_pressure(at[0] * a.y() + at[1] * b.y() + at[2] * c.y());
+  reading.pore_pressure =
+      water_.flows()
+          ? of_nodes(water_.pore_pressure, nodes, at)
+          : water_.triangles[triangle].pore_pressure(at[0] * a.y() + at[1] * b.y() + at[2] * c.y());
   return reading;
 }
 

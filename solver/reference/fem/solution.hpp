@@ -25,9 +25,8 @@ struct FemPoint {
 
 class FemSolution {
  public:
-  /// `displacement`: one column per node of `nodes` [m]; `water`: one entry per triangle.
-  FemSolution(const Case&, Mesh mesh, P4Mesh nodes, std::vector<TriangleWater> water,
-              Eigen::Matrix2Xd displacement);
+  /// `displacement`: one column per node of `nodes` [m].
+  FemSolution(const Case&, Mesh mesh, P4Mesh nodes, MeshWater water, Eigen::Matrix2Xd displacement);
 
   /// At a point of the soil [m]. Between triangles of one soil the mean of theirs; where soils meet, that of
   /// the soil that the case names first. Throws std::runtime_error outside the mesh.
@@ -51,7 +50,7 @@ class FemSolution {
   std::vector<SoilCase> soils_;
   Mesh mesh_;
   P4Mesh nodes_;
-  std::vector<TriangleWater> water_;
+  MeshWater water_;
   Eigen::Matrix2Xd displacement_;
   TriangleLocator locator_;
 };

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "solver/reference/fem/assemble.hpp"
+#include "solver/reference/fem/seepage.hpp"
 
 namespace porosph {
 namespace {
@@ -76,6 +77,12 @@ Eigen::Matrix2Xd displacements(const Freedoms& freedoms, const Eigen::VectorXd& 
   return u;
 }
 
+MeshWater water_of(const Case& scene, const Mesh& mesh, const P4Mesh& nodes) {
+  if (!scene.water.flows()) return {water_of_triangles(scene.water, mesh), {}, {}};
+  FemSeepage seepage = solve_fem_seepage(scene, mesh, nodes);
+  return {{}, std::move(seepage.pore_pressure), std::move(seepage.pressure_head)};
+}
+
 }  // namespace
 
 FemSolution solve_fem(const Case& scene, const Mesh& mesh) {
@@ -86,7 +93,7 @@ FemSolution solve_fem(const Case& scene, const Mesh& mesh) {
         "soil");
   check_mesh(mesh, static_cast<int>(scene.soils.size()));
   const P4Mesh nodes = place_nodes(mesh);
-  const std::vector<TriangleWater> water = water_of_triangles(scene.water, mesh);
+  const MeshWater water = water_of(scene, mesh, nodes);
   const Freedoms freedoms = constrain(scene.boundaries, mesh, nodes);
   const Solved solved = solve(scene, assemble(scene, mesh, nodes, water, freedoms));
   FemSolution solution(scene, mesh, nodes, water, displacements(freedoms, solved.unknowns));

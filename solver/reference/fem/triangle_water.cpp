@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 

@@ -1,4 +1,4 @@
-// The still water in each triangle of a mesh.
+// The pore water in each triangle of a mesh.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,14 @@ struct TriangleWater {
   double level = 0;        ///< y of the free surface [m]
   double unit_weight = 0;  ///< gamma_w [N/m3]
   double pore_pressure(double y) const { return saturated ? -unit_weight * (level - y) : 0; }  ///< p_w [Pa]
+};
+
+/// The pore water of a mesh: at rest in each triangle, or known at the P4 mesh's nodes where it flows.
+struct MeshWater {
+  std::vector<TriangleWater> triangles;
+  std::vector<double> pore_pressure;  ///< p_w at the nodes [Pa]; empty where the water stands
+  std::vector<double> pressure_head;  ///< psi at the nodes [m]
+  bool flows() const { return !pore_pressure.empty(); }
 };
 
 /// Water beside one edge of the outline, where a stretch ends at it and the triangle is not under it: its

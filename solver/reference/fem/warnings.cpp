@@ -8,7 +8,7 @@
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/compare.hpp"
 #include "solver/reference/fem/rough_points.hpp"
-#include "solver/water/still_water.hpp"
+#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
@@ -22,7 +22,7 @@ bool touch(const SoilCase& a, const SoilCase& b, double dx) { return distance(a,
 /// Area that the particles of a soil stand for over that of its outline, at t = 0.
 double carried_area(const Case& scene, const Particles& p, int soil) {
   const SoilCase& s = scene.soils[soil];
-  const Water water(at_rest_from(scene.water, 0));
+  const StandingWater water(at_rest_from(scene.water, 0));
   double carried = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.soil[i] != soil) continue;

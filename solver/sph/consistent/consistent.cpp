@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/sph/kernel/cubic_spline.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
@@ -20,22 +21,21 @@ double controlled_rho_c(const Model& model) {
 ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
     : model_(model),
       formulation_(formulation),
-      kernel_(model.smoothing_length),
       kernels_(consistent_kernels(units)),
       soils_(model),
-      control_rho_c_(controlled_rho_c(model)),
-      control_viscosity_(formulation.zero_energy_control * control_rho_c_ * model.smoothing_length),
-      cells_are_cut_(cells_are_cut(model.particles)) {}
+      control_{
+          .rho_c = controlled_rho_c(model), .viscosity = 0, .cells_are_cut = cells_are_cut(model.particles)} {
+  control_.viscosity = formulation.zero_energy_control * control_.rho_c * model.smoothing_length;
+}
 
 void ConsistentDynamics::prepare() {
-  const bool close = travel_ > 0.05 * model_.spacing && strangers_are_near();
-  const bool due = !reference_.made() || largest_strain_ > formulation_.refresh_strain || close;
+  const bool close = since_.travel > 0.05 * model_.spacing && strangers_are_near();
+  const bool due = !reference_.made() || since_.strain > formulation_.refresh_strain || close;
   if (!due) return;
   rebuild_reference();
   fluxes_.take_velocities(reference_, model_.particles);
   strain_all(0);
-  largest_strain_ = 0;
-  travel_ = 0;
+  since_ = {};
   ++counts.refreshes;
 }
 
@@ -46,7 +46,8 @@ void ConsistentDynamics::rebuild_reference() {
   counts.closures += reference_.closed() ? 1 : 0;
   own_sides_ = find_own_sides(reference_, model_);
   soils_.set_own_sides(own_sides_.place);
-  spring_ = ZeroEnergySpring(formulation_, model_, control_rho_c_, cells_are_cut_, reference_, own_sides_);
+  spring_ =
+      ZeroEnergySpring(formulation_, model_, control_.rho_c, control_.cells_are_cut, reference_, own_sides_);
   yields_.assign(spring_.active() || !own_sides_.empty() ? model_.particles.size() : 0, 0);
   fluxes_ = Fluxes(reference_, model_, spring_.active());
   connect_arrays();
@@ -61,7 +62,7 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.state.yields = yields_.empty() ? nullptr : yields_.data();
   own_sides_.connect(arrays_.state.own_sides);
   arrays_.state.own_sides.rate = spring_.of_own_sides().data();
-  arrays_.control = {.viscosity = control_viscosity_,
+  arrays_.control = {.viscosity = control_.viscosity,
                      .rate = spring_.of_soils().data(),
                      .bulk_length = formulation_.bulk_viscosity * model_.smoothing_length};
   arrays_.gravity[0] = model_.gravity.x(), arrays_.gravity[1] = model_.gravity.y();
@@ -70,10 +71,11 @@ void ConsistentDynamics::connect_arrays() {
 
 /// True when two particles came closer than the kernel's support, by a margin, without being neighbours.
 bool ConsistentDynamics::strangers_are_near() {
-  travel_ = 0;
+  since_.travel = 0;
   const auto& position = model_.particles.position;
   const std::size_t n = position.size();
-  const NeighbourList now = find_neighbours(position, n, kernel_.support() - 0.2 * model_.spacing);
+  const NeighbourList now =
+      find_neighbours(position, n, CubicSpline<2>(model_.smoothing_length).support() - 0.2 * model_.spacing);
   ++counts.searches;
   bool found = false;
 #pragma omp parallel for schedule(static) reduction(|| : found)
@@ -104,7 +106,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
   spring_.soften_pairs(
-      reference_, model_.particles, control_viscosity_, [&](std::int32_t a) { return own_strain(a); }, out);
+      reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
 }
 
 /// F - I of a particle's own side.
@@ -132,8 +134,8 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 void ConsistentDynamics::strain(double dt) {
   fluxes_.take_velocities(reference_, model_.particles);
   const LargestChange largest = strain_all(dt);
-  largest_strain_ = largest.strain;
-  travel_ += dt * std::sqrt(largest.speed_squared);
+  since_.strain = largest.strain;
+  since_.travel += dt * std::sqrt(largest.speed_squared);
   if (spring_.active())
     spring_.slip(reference_, model_.particles, yields_, [&](std::int32_t a) { return own_strain(a); });
 }
@@ -160,8 +162,8 @@ void ConsistentDynamics::visit(StateArchive& state) {
   }
   fluxes_.visit(state, reference_);
   spring_.visit(state, p.size());
-  state.value("largest_strain", largest_strain_);
-  state.value("travel", travel_);
+  state.value("largest_strain", since_.strain);
+  state.value("travel", since_.travel);
 }
 
 }  // namespace porosph

@@ -4,7 +4,6 @@
 #include "solver/sph/consistent/fluxes.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/dynamics.hpp"
-#include "solver/sph/kernel/cubic_spline.hpp"
 #include "solver/sph/kernels/consistent_kernels.hpp"
 #include "solver/sph/soil_views.hpp"
 
@@ -39,22 +38,28 @@ class ConsistentDynamics final : public Dynamics {
   LargestChange strain_all(double dt);
   Mat2 own_strain(std::size_t particle) const;
 
+  struct Control {
+    double rho_c;      ///< of the zero-energy control [kg/(m2 s)]
+    double viscosity;  ///< its mu [Pa s]
+    bool cells_are_cut;
+  };
+  struct SinceReference {
+    double strain = 0;  ///< the largest |F - I|
+    double travel = 0;  ///< bound on any particle's path since neighbours were looked at [m]
+  };
+
   Model& model_;
   FormulationCase formulation_;
-  CubicSpline<2> kernel_;
   const ConsistentKernels& kernels_;
   SoilViews soils_;
-  double control_rho_c_;      ///< of the zero-energy control [kg/(m2 s)]
-  double control_viscosity_;  ///< its mu [Pa s]
-  bool cells_are_cut_;
+  Control control_;
   ReferenceConfiguration reference_;
   OwnSides own_sides_;
   ZeroEnergySpring spring_;
   Fluxes fluxes_;               ///< since the reference
   std::vector<double> yields_;  ///< of particles: as in SoilStateView; empty where nobody asks
   ConsistentArrays arrays_{};   ///< all these, as the kernels see them
-  double largest_strain_ = 0;   ///< |F - I| since the reference
-  double travel_ = 0;           ///< bound on any particle's path since neighbours were looked at [m]
+  SinceReference since_;
 };
 
 }  // namespace porosph

@@ -11,8 +11,8 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
   deformation_.assign(p.size(), Mat2::Identity());
   flux_.resize(all);
   for (auto& v : velocity_) v.resize(all);
-  const bool wet = model.water.present() || std::any_of(p.pore_pressure.begin(), p.pore_pressure.end(),
-                                                        [](double w) { return w != 0; });
+  const bool wet = model.pore_water->acts(model.water) ||
+                   std::ranges::any_of(p.pore_pressure, [](double w) { return w != 0; });
   if (wet) pressure_.resize(all);
   if (elastic_control)
     for (auto& m : controlled_) m.resize(all);
@@ -59,18 +59,17 @@ void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model)
   if (pressure_.empty()) return;
   const Particles& p = model.particles;
   const std::size_t n = p.size();
-  const auto write = [&](std::size_t i, double pressure) {
-    pressure_[i] = pressure;
-    if (r.listed[i]) records_[i].q[pressure_lane] = pressure;
-  };
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) write(a, p.pore_pressure[a]);
+  for (std::size_t a = 0; a < n; ++a) pressure_[a] = p.pore_pressure[a];
   r.ghosts.for_each([&](std::size_t i) {
     const std::size_t parent = r.ghosts.parent(i);
     const Vec2& from = parent < n ? p.position[parent] : ghost_positions_[parent - n];
-    const Vec2 here = ghost_positions_[i] = r.ghosts.wall(i).mirrored(from);
-    write(n + i, model.water.pore_pressure_behind_wall(p.position[r.ghosts.root(i)], here));
+    ghost_positions_[i] = r.ghosts.wall(i).mirrored(from);
   });
+  model.pore_water->fill_ghosts(model.water, p, r.ghosts, ghost_positions_, pressure_);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < pressure_.size(); ++i)
+    if (r.listed[i]) records_[i].q[pressure_lane] = pressure_[i];
 }
 
 void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills) {

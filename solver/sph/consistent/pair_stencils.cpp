@@ -9,14 +9,43 @@
 namespace porosph {
 namespace {
 
-/// With h = dx neighbours lie at the rim of the support, where the kernel's slope is zero. Left out, so that
-/// round-off does not give some particles more of them than others, which would share no stencil.
-constexpr double inside = 1 - 1e-9;
+template <class Real>
+PairGeometryIn<Real> packed(const Vec2& g, double w) {
+  return {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(w)};
+}
+template <class Real>
+PairGeometryIn<Real, 3> packed(const Vec3& g, double w) {
+  return {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z()), static_cast<Real>(w)};
+}
 
+template <class Real>
+PairGeometryIn<Real> narrowed(const PairGeometryIn<double>& g) {
+  return packed<Real>(Vec2(g.x, g.y), g.w);
+}
+template <class Real>
+PairGeometryIn<Real, 3> narrowed(const PairGeometryIn<double, 3>& g) {
+  return packed<Real>(Vec3(g.x, g.y, g.z), g.w);
+}
+
+/// Adds what is stored of a pair, rounded as it is there.
+template <class Real>
+void add(const PairGeometryIn<Real>& g, PairGeometryIn<double>& sum) {
+  sum.x += g.x, sum.y += g.y, sum.w += g.w;
+}
+template <class Real>
+void add(const PairGeometryIn<Real, 3>& g, PairGeometryIn<double, 3>& sum) {
+  sum.x += g.x, sum.y += g.y, sum.z += g.z, sum.w += g.w;
+}
+
+template <class Space>
 class Builder {
+  using PairStencils = PairStencilsIn<Space>;
+  using Vector = VectorIn<Space>;
+  using Geometry = typename PairStencils::Geometry;
+
  public:
-  Builder(std::span<const Vec2> points, NeighbourList list, std::span<const double> volumes,
-          const CubicSpline<2>& kernel, bool single)
+  Builder(std::span<const Vector> points, NeighbourList list, std::span<const double> volumes,
+          const CubicSpline<Space::dim>& kernel, bool single)
       : points_(points),
         volumes_(volumes),
         kernel_(kernel),
@@ -24,7 +53,7 @@ class Builder {
         count_(static_cast<std::int32_t>(list.begin.size()) - 1),
         list_(std::move(list)) {
     double largest = 0;
-    for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    for (const Vector& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     rounding_ = 16 * std::numeric_limits<double>::epsilon() * largest;
   }
 
@@ -44,7 +73,7 @@ class Builder {
     for (std::size_t k = 0; k < of_a.size(); ++k) {
       const std::int32_t c = of_a[k], d = of_b[k];
       if (d - b != c - a) return false;
-      const Vec2 difference = (points_[d] - points_[b]) - (points_[c] - points_[a]);
+      const Vector difference = (points_[d] - points_[b]) - (points_[c] - points_[a]);
       if (!(difference.cwiseAbs().maxCoeff() <= rounding_)) return false;
       if (!(std::abs(volumes_[d] - volumes_[c]) <= 1e-13 * volumes_[c])) return false;
     }
@@ -65,23 +94,24 @@ class Builder {
 
   /// Writes the particle itself, then its neighbours; `number` is what stands for neighbour b.
   template <class Real, class Number>
-  void write(std::int32_t a, std::int32_t* index, PairGeometryIn<Real>* geometry, Number&& number) const {
-    PairGeometry sum{0, 0, 0};
+  void write(std::int32_t a, std::int32_t* index, PairGeometryIn<Real, Space::dim>* geometry,
+             Number&& number) const {
+    Geometry sum{};
     std::size_t k = 1;
     for (const std::int32_t b : list_.of(a)) {
-      const Vec2 to_b = points_[b] - points_[a];
+      const Vector to_b = points_[b] - points_[a];
       const double w = -volumes_[b] * kernel_.slope(to_b.norm());
       index[k] = number(b);
-      geometry[k] = {static_cast<Real>(w * to_b.x()), static_cast<Real>(w * to_b.y()), static_cast<Real>(w)};
-      sum.x += geometry[k].x, sum.y += geometry[k].y, sum.w += geometry[k].w;
+      geometry[k] = packed<Real>(Vector(w * to_b), w);
+      add(geometry[k], sum);
       ++k;
     }
     index[0] = number(a);
-    geometry[0] = {static_cast<Real>(sum.x), static_cast<Real>(sum.y), static_cast<Real>(sum.w)};
+    geometry[0] = narrowed<Real>(sum);
   }
 
   void fill_shared() {
-    for (PairStencils::Stretch& s : stencils_.stretches) {
+    for (typename PairStencils::Stretch& s : stencils_.stretches) {
       s.pairs = static_cast<std::int32_t>(stencils_.offset.size());
       const std::size_t size = stencils_.offset.size() + 1 + list_.of(s.first).size();
       stencils_.offset.resize(size);
@@ -106,7 +136,7 @@ class Builder {
   }
 
   template <class Real>
-  void write_own(std::vector<PairGeometryIn<Real>>& own) {
+  void write_own(std::vector<PairGeometryIn<Real, Space::dim>>& own) {
     own.resize(stencils_.index.size());
 #pragma omp parallel for schedule(static)
     for (std::int32_t a = 0; a < count_; ++a) {
@@ -129,9 +159,9 @@ class Builder {
     }
   }
 
-  std::span<const Vec2> points_;
+  std::span<const Vector> points_;
   std::span<const double> volumes_;
-  CubicSpline<2> kernel_;
+  CubicSpline<Space::dim> kernel_;
   bool single_;
   std::int32_t count_;
   NeighbourList list_;
@@ -141,21 +171,33 @@ class Builder {
 
 }  // namespace
 
-bool PairStencils::are_neighbours(std::int32_t a, std::int32_t b) const {
+template <class Space>
+bool PairStencilsIn<Space>::are_neighbours(std::int32_t a, std::int32_t b) const {
   if (const std::int32_t s = stretch_of[a]; s != own_list)
     return std::binary_search(offset.begin() + stretches[s].pairs + 1,
                               offset.begin() + stretches[s].pairs_end, b - a);
   return std::binary_search(index.begin() + begin[a] + 1, index.begin() + begin[a + 1], b);
 }
 
-NeighbourList stencil_neighbours(std::span<const Vec2> points, std::size_t count,
-                                 const CubicSpline<2>& kernel) {
-  return find_neighbours(points, count, inside * kernel.support());
+template <class Space>
+PairStencilsIn<Space> make_pair_stencils_in(std::span<const VectorIn<Space>> points, NeighbourList neighbours,
+                                            std::span<const double> volumes,
+                                            const CubicSpline<Space::dim>& kernel, bool single) {
+  return Builder<Space>(points, std::move(neighbours), volumes, kernel, single).build();
 }
 
-PairStencils make_pair_stencils(std::span<const Vec2> points, NeighbourList neighbours,
-                                std::span<const double> volumes, const CubicSpline<2>& kernel, bool single) {
-  return Builder(points, std::move(neighbours), volumes, kernel, single).build();
-}
+template struct PairStencilsIn<Plane>;
+template struct PairStencilsIn<Axisymmetric>;
+template struct PairStencilsIn<Solid>;
+template PairStencilsIn<Plane> make_pair_stencils_in<Plane>(std::span<const Vec2>, NeighbourList,
+                                                            std::span<const double>, const CubicSpline<2>&,
+                                                            bool);
+template PairStencilsIn<Axisymmetric> make_pair_stencils_in<Axisymmetric>(std::span<const Vec2>,
+                                                                          NeighbourList,
+                                                                          std::span<const double>,
+                                                                          const CubicSpline<2>&, bool);
+template PairStencilsIn<Solid> make_pair_stencils_in<Solid>(std::span<const Vec3>, NeighbourList,
+                                                            std::span<const double>, const CubicSpline<3>&,
+                                                            bool);
 
 }  // namespace porosph

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/space/tensor.hpp"
@@ -12,20 +13,31 @@
 namespace porosph {
 
 /// What a pair's sums need: G = V_b grad_a W_ab = w (x_b - x_a).
-template <class Real>
+template <class Real, int dim = 2>
 struct PairGeometryIn {
   Real x, y;  ///< G [1/m]
   Real w;     ///< [1/m2]
 };
+template <class Real>
+struct PairGeometryIn<Real, 3> {
+  Real x, y, z, w;
+};
 using PairGeometry = PairGeometryIn<double>;
 using SinglePairGeometry = PairGeometryIn<float>;
+
+inline PairGeometryIn<double> widened(const PairGeometryIn<float>& g) { return {g.x, g.y, g.w}; }
+inline PairGeometryIn<double, 3> widened(const PairGeometryIn<float, 3>& g) { return {g.x, g.y, g.z, g.w}; }
 
 /// Stencils of the first particles of a set of points. In a lattice a particle's neighbourhood is that of the
 /// particle before it, shifted by one. Stretches of such particles share one stencil, and their sums run over
 /// consecutive memory; all others have a list of their own.
 ///
 /// The first entry of each stencil is the particle itself, with the sums over its neighbours.
-struct PairStencils {
+template <class Space>
+struct PairStencilsIn {
+  using Geometry = PairGeometryIn<double, Space::dim>;
+  using SingleGeometry = PairGeometryIn<float, Space::dim>;
+
   static constexpr std::int32_t tile = 128;    ///< particles that are summed at once
   static constexpr std::int32_t shortest = 8;  ///< stretch that is worth sharing
   static constexpr std::int32_t own_list = -1;
@@ -36,13 +48,13 @@ struct PairStencils {
   };
   std::vector<Stretch> stretches;
   std::vector<std::int32_t> offset;      ///< of stretches: the neighbour's number minus the particle's
-  std::vector<PairGeometry> shared;      ///< beside offset
+  std::vector<Geometry> shared;          ///< beside offset
   std::vector<std::int32_t> stretch_of;  ///< of each particle, or own_list
 
-  std::vector<std::int64_t> begin;             ///< of each particle's own list; nothing where it shares one
-  std::vector<std::int32_t> index;             ///< of own lists: the neighbour's number
-  std::vector<PairGeometry> own;               ///< beside index
-  std::vector<SinglePairGeometry> own_single;  ///< in its place, half the size; sums only to rounding
+  std::vector<std::int64_t> begin;         ///< of each particle's own list; nothing where it shares one
+  std::vector<std::int32_t> index;         ///< of own lists: the neighbour's number
+  std::vector<Geometry> own;               ///< beside index
+  std::vector<SingleGeometry> own_single;  ///< in its place, half the size; sums only to rounding
 
   /// Particles of one tile that are summed alike.
   struct Piece {
@@ -63,21 +75,35 @@ struct PairStencils {
         use(a + offset[k], shared[k]);
     } else {
       for (std::int64_t k = begin[a] + 1; k < begin[a + 1]; ++k)
-        use(index[k],
-            own_single.empty() ? own[k] : PairGeometry{own_single[k].x, own_single[k].y, own_single[k].w});
+        use(index[k], own_single.empty() ? own[k] : widened(own_single[k]));
     }
   }
   bool are_neighbours(std::int32_t a, std::int32_t b) const;
 };
 
-/// Those within the kernel's support of the first `count` points.
-NeighbourList stencil_neighbours(std::span<const Vec2> points, std::size_t count,
-                                 const CubicSpline<2>& kernel);
+using PairStencils = PairStencilsIn<Plane>;
 
-/// The stencils of the first points, one for each list of neighbours; `volumes` of all points [m2]. `single`:
-/// own lists are stored in single precision.
-PairStencils make_pair_stencils(std::span<const Vec2> points, NeighbourList neighbours,
-                                std::span<const double> volumes, const CubicSpline<2>& kernel,
-                                bool single = false);
+/// Those within the kernel's support of the first `count` points.
+template <class Vector, int dim>
+NeighbourList stencil_neighbours(const std::vector<Vector>& points, std::size_t count,
+                                 const CubicSpline<dim>& kernel) {
+  // With h = dx neighbours lie at the rim of the support, where the kernel's slope is zero. Left out, so that
+  // round-off does not give some particles more of them than others, which would share no stencil.
+  constexpr double inside = 1 - 1e-9;
+  return find_neighbours(points, count, inside * kernel.support());
+}
+
+/// The stencils of the first points, one for each list of neighbours; `volumes` of all points [m2, m3 in a
+/// solid]. `single`: own lists are stored in single precision.
+template <class Space>
+PairStencilsIn<Space> make_pair_stencils_in(std::span<const VectorIn<Space>> points, NeighbourList neighbours,
+                                            std::span<const double> volumes,
+                                            const CubicSpline<Space::dim>& kernel, bool single = false);
+
+inline PairStencils make_pair_stencils(std::span<const Vec2> points, NeighbourList neighbours,
+                                       std::span<const double> volumes, const CubicSpline<2>& kernel,
+                                       bool single = false) {
+  return make_pair_stencils_in<Plane>(points, std::move(neighbours), volumes, kernel, single);
+}
 
 }  // namespace porosph

@@ -111,7 +111,7 @@ Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_
   Mat2 stress = root + along_x * c.way.x() + along_y * c.way.y();
   if (c.turned) root = c.turn * root * c.turn.transpose(), stress = c.turn * stress * c.turn.transpose();
   const Wall& wall = r.ghosts.wall(ghost);
-  if (wall.kind != BoundaryKind::roller) return stress;
+  if (wall.support().carries_shear()) return stress;
   const Mat2 across = wall.normal * wall.normal.transpose(), along = Mat2::Identity() - across;
   const Mat2 mirrored = r.ghosts.mirrored<Mirrors::tensor>(ghost, root);
   return across * stress * across + along * stress * along + across * mirrored * along +

@@ -1,6 +1,7 @@
 // Kernel-gradient correction, eqs. (9) and (10).
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,15 @@ inline Mat2 correction_matrix(const Mat2& sum, double spans_the_plane = 0.15) {
   // lattice.
   const double least = sum.trace() < 0.5 ? 0.3 : 0.1;
   return sum.determinant() > spans_the_plane ? inverse(sum) : limited_correction(sum, least);
+}
+
+/// The same in space, where a right-angled corner has 1/8: the limit is the same share of it.
+inline Mat3 correction_matrix(const Mat3& sum, double spans_the_space = 0.075) {
+  if (sum.determinant() > spans_the_space) return sum.inverse();
+  const double least = sum.trace() < 0.75 ? 0.3 : 0.1;
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(0.5 * (sum + sum.transpose()));
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
+         axes.eigenvectors().transpose();
 }
 
 }  // namespace porosph

@@ -9,9 +9,10 @@ namespace {
 
 /// Two passes, count then fill, so that particles are searched in parallel and the result does not depend on
 /// threads.
-NeighbourList search(std::span<const Vec2> centres, std::span<const Vec2> points, double radius,
+template <class Vector>
+NeighbourList search(std::span<const Vector> centres, std::span<const Vector> points, double radius,
                      bool skip_self) {
-  const CellGrid<2> grid(points, radius);
+  const CellGrid<Vector::RowsAtCompileTime> grid(points, radius);
   const auto count = static_cast<std::int64_t>(centres.size());
   const auto visit = [&](std::int64_t a, auto&& use) {
     grid.around(centres[a], [&](std::int32_t b) {
@@ -37,6 +38,10 @@ NeighbourList search(std::span<const Vec2> centres, std::span<const Vec2> points
 }  // namespace
 
 NeighbourList find_neighbours(std::span<const Vec2> points, std::size_t count, double radius) {
+  return search(points.first(count), points, radius, true);
+}
+
+NeighbourList find_neighbours(std::span<const Vec3> points, std::size_t count, double radius) {
   return search(points.first(count), points, radius, true);
 }
 

@@ -33,6 +33,7 @@ NeighbourList kept(const NeighbourList& list, Keep&& keep) {
 
 /// The neighbours within `radius` [m], among all points, of the first `count` points.
 NeighbourList find_neighbours(std::span<const Vec2> points, std::size_t count, double radius);
+NeighbourList find_neighbours(std::span<const Vec3> points, std::size_t count, double radius);
 
 /// The neighbours of each centre among `points`, within `radius` [m].
 NeighbourList find_neighbours(std::span<const Vec2> centres, std::span<const Vec2> points, double radius);

@@ -77,6 +77,19 @@ TEST_CASE("without a reference there are no errors") {
   CHECK(read_again(folder, summary).errors.empty());
 }
 
+TEST_CASE("what water did that flows comes back") {
+  const TemporaryFolder folder;
+  auto summary = example();
+  CHECK_FALSE(written(folder, summary).contains("seepage"));
+  summary.seepage = {{0, 1.5e-6, -1.5e-6}, 1e-11, 7, 420};
+  const auto again = read_again(folder, summary).seepage;
+  REQUIRE(again);
+  CHECK(again->through_faces == summary.seepage->through_faces);
+  CHECK(again->imbalance == 1e-11);
+  CHECK(again->newton_steps == 7);
+  CHECK(again->krylov_iterations == 420);
+}
+
 TEST_CASE("a summary comes back as it was") {
   const TemporaryFolder folder;
   const auto summary = example();

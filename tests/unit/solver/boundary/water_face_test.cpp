@@ -10,15 +10,15 @@ using namespace porosph;
 
 namespace {
 
-struct Load {
+struct Resultant {
   Vec2 force = Vec2::Zero();  // [N/m]
   double moment = 0;          // about the origin, counter-clockwise [N]
 };
 
-Load load_on(const Model& model) {
+Resultant load_on(const Model& model) {
   std::vector<Vec2> a(model.particles.size(), Vec2::Zero());
-  add_water_pressure(model.water_faces, model.water, model.particles, a);
-  Load load;
+  add_loads(model.loads, model.particles, 0, a);
+  Resultant load;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec2 f = model.particles.mass[i] * a[i], x = model.particles.position[i];
     load.force += f;
@@ -48,7 +48,7 @@ TEST_CASE("water beside an upright face presses with its weight, at a third of i
   const double force = 9810 * level * level / 2, pieces = 0.002;  // midpoints of pieces at the level
 
   scene.water.stretches = {{.x_to = 0, .level = level}};
-  const Load left = load_on(build_model(scene));
+  const Resultant left = load_on(build_model(scene));
   CHECK(left.force.x() == Approx(force).epsilon(pieces));
   CHECK(left.force.y() == Approx(0).margin(1e-9 * force));
   CHECK(left.moment == Approx(-force * level / 3).epsilon(3 * pieces));
@@ -65,11 +65,11 @@ TEST_CASE("water beside an upright face presses with its weight, at a third of i
 TEST_CASE("water that the soil is under presses on no face") {
   Case scene = dam(Arrangement::stretched, 0.5);
   scene.water.stretches = {{.level = 9}};
-  CHECK(build_model(scene).water_faces.empty());
+  CHECK(build_model(scene).loads.empty());
   scene.water.stretches = {{.x_from = -3, .x_to = 8, .level = 9}};
-  CHECK(build_model(scene).water_faces.empty());
+  CHECK(build_model(scene).loads.empty());
   scene.water.stretches = {{.x_to = 4, .level = 9}};  // ends with the soil
-  CHECK(build_model(scene).water_faces.empty());
+  CHECK(build_model(scene).loads.empty());
 }
 
 TEST_CASE("a face behind a wall bears no water") {
@@ -85,7 +85,7 @@ TEST_CASE("the pressure stays normal to a face that has turned") {
   Model model = build_model(scene);
   const Mat2 turn = (Mat2() << 0.8, -0.6, 0.6, 0.8).finished();
   for (Vec2& x : model.particles.position) x = turn * x;
-  const Load load = load_on(model);  // on a face of 10 m from (0, 0) to (-6, 8)
+  const Resultant load = load_on(model);  // on a face of 10 m from (0, 0) to (-6, 8)
   const double force = 9810 * (12 - 4) * 10;
   CHECK(load.force.x() == Approx(0.8 * force).epsilon(1e-6));
   CHECK(load.force.y() == Approx(0.6 * force).epsilon(1e-6));

@@ -55,11 +55,31 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:6:8: key 'particles.seed' = 1.5: must be a whole number >= 0 and <= 999999"},
       {"poissons_ratio", "no_tension = 1\npoissons_ratio",
        "box.toml:10:14: key 'soil[0].no_tension' = 1: must be true or false"},
+      {"poissons_ratio", "law = 'mohr-coulomb'\npoissons_ratio",
+       "box.toml:10:7: key 'soil[0].law' = \"mohr-coulomb\": must be one of \"elastic\", \"drucker_prager\", "
+       "\"mohr_coulomb\", \"tresca\"; did you mean 'mohr_coulomb'?"},
+      {"poissons_ratio", "cohesion = 1e3\npoissons_ratio",
+       "box.toml:10:12: key 'soil[0].cohesion' = 1000: is used only with law = \"drucker_prager\" or "
+       "\"mohr_coulomb\""},
+      {"poissons_ratio", "law = 'tresca'\nundrained_strength = 0\npoissons_ratio",
+       "box.toml:11:22: key 'soil[0].undrained_strength' = 0: must be > 0 and <= 1e+15 Pa"},
+      {"poissons_ratio",
+       "law = 'mohr_coulomb'\ncohesion = 0\nfriction_angle = 30\ndilation_angle = 31\npoissons_ratio",
+       "box.toml:13:18: key 'soil[0].dilation_angle' = 31: must be <= friction_angle = 30 degrees"},
+      {"poissons_ratio",
+       "law = 'drucker_prager'\ncohesion = 1\nfriction_angle = 30\nresidual_cohesion = 0.5\npoissons_ratio",
+       "box.toml:13:21: key 'soil[0].residual_cohesion' = 0.5: is used only with softening = \"exponential\" "
+       "or "
+       "\"linear\""},
+      {"poissons_ratio",
+       "law = 'drucker_prager'\nno_tension = true\ncohesion = 1\nfriction_angle = 30\npoissons_ratio",
+       "box.toml:11:14: key 'soil[0].no_tension' = true: is used only with law = \"elastic\""},
       {"end = 1", "end = 1\n[output]\nfields = ['Velocty']",
        "box.toml:21:11: key 'output.fields[0]' = \"Velocty\": must be one of Displacement, Velocity, "
        "EffectiveStress, "
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
-       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, PlasticStrain; "
+       "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, Yielding, "
+       "MobilisedFriction, PlasticStrain, Opening, UndrainedStrength; "
        "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",

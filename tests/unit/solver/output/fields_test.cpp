@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "solver/analysis/derived_fields.hpp"
 #include "solver/output/boundary_frame.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
@@ -32,10 +33,10 @@ Case submerged_column() {
   return scene;
 }
 
-std::string documented_fields() {
+std::string documented_fields(const std::vector<Field>& fields = field_table()) {
   std::ostringstream table;
   table << "| field | components | unit | what |\n|---|---|---|---|\n";
-  for (const Field& f : field_table()) {
+  for (const Field& f : fields) {
     std::string components;
     for (const std::string& c : component_names(f.kind)) components += (components.empty() ? "" : " ") + c;
     table << "| `" << f.name << "` | " << components << " | " << f.unit << " | " << f.meaning << " |\n";
@@ -45,6 +46,15 @@ std::string documented_fields() {
 
 const std::string format_page = std::string(POROSPH_SOURCE_DIR) + "/docs/output-format.md";
 const std::string table_begin = "<!-- fields -->\n", table_end = "<!-- end of fields -->\n";
+const std::string derived_begin = "<!-- derived fields -->\n",
+                  derived_end = "<!-- end of derived fields -->\n";
+
+void write_between(std::string& page, const std::string& begin_mark, const std::string& end_mark,
+                   const std::string& text) {
+  const auto begin = page.find(begin_mark) + begin_mark.size(), end = page.find(end_mark);
+  REQUIRE(end != std::string::npos);
+  page.replace(begin, end - begin, text);
+}
 
 std::string contents(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -152,13 +162,15 @@ TEST_CASE("frames are also due at given times", "[output]") {
 }
 
 // After a change of fields: unit_solver "[.write-docs]" writes the table anew.
-TEST_CASE("the documentation's table of fields is up to date") {
+TEST_CASE("the documentation's tables of fields are up to date") {
   const std::string page = contents(format_page);
   CHECK(page.find(table_begin + documented_fields() + table_end) != std::string::npos);
+  CHECK(page.find(derived_begin + documented_fields(derived_field_table()) + derived_end) !=
+        std::string::npos);
 }
-TEST_CASE("write the documentation's table of fields", "[.write-docs]") {
+TEST_CASE("write the documentation's tables of fields", "[.write-docs]") {
   std::string page = contents(format_page);
-  const auto begin = page.find(table_begin) + table_begin.size(), end = page.find(table_end);
-  REQUIRE(end != std::string::npos);
-  std::ofstream(format_page) << page.replace(begin, end - begin, documented_fields());
+  write_between(page, table_begin, table_end, documented_fields());
+  write_between(page, derived_begin, derived_end, documented_fields(derived_field_table()));
+  std::ofstream(format_page) << page;
 }

@@ -23,7 +23,7 @@ TEST_CASE("the correction makes the gradient of a linear field exact", "[correct
 
 TEST_CASE("the correction stays bounded where the neighbours do not span the plane", "[correction]") {
   const auto largest = [](const Mat2& m) { return Eigen::JacobiSVD<Mat2>(m).singularValues()[0]; };
-  CHECK(largest(correction_matrix(Mat2::Zero())) ==
+  CHECK(largest(correction_matrix(Mat2(Mat2::Zero()))) ==
         Approx(1 / 0.3));  // a lone particle, whose gradients are zero
   const Vec2 row = Vec2(1, 2) / std::sqrt(5.0);
   const Mat2 along = row * row.transpose();

@@ -1,0 +1,109 @@
+// Steady seepage, and the soil at rest in it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/water/flow/outline.hpp"
+#include "tests/verification/verification.hpp"
+
+using namespace porosph;
+using namespace porosph::verification;
+
+namespace {
+
+const FlowRecord& flow_of(const Simulation& s) {
+  const FlowRecord* record = s.model().pore_water->record();
+  REQUIRE(record != nullptr);
+  CHECK(std::abs(record->imbalance) < 1e-8);
+  return *record;
+}
+
+double entering(const FlowRecord& flow) {
+  double in = 0;
+  for (const double q : flow.through_faces) in += std::max(q, 0.0);
+  return in;
+}
+
+/// Where a column of particles next to x becomes dry [m].
+double water_table(const Simulation& s, double x) {
+  const Particles& p = s.model().particles;
+  const FlowRecord& flow = flow_of(s);
+  double nearest = never;
+  for (const Vec2& at : p.position) nearest = std::min(nearest, std::abs(at.x() - x));
+  std::vector<std::pair<double, double>> column;  // y, psi
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (std::abs(p.position[i].x() - x) < nearest + 1e-6)
+      column.emplace_back(p.position[i].y(), flow.head[i] - p.position[i].y());
+  std::ranges::sort(column);
+  for (std::size_t k = 0; k + 1 < column.size(); ++k) {
+    const auto [y, psi] = column[k];
+    const auto [above, dry] = column[k + 1];
+    if (psi >= 0 && dry < 0 && above > y) return y + (above - y) * psi / (psi - dry);
+  }
+  return std::nan("");
+}
+
+}  // namespace
+
+TEST_CASE("seepage: the force of rising water lightens a column") {
+  for (const double level : {7.0, 6.0, 4.5}) {  // m at the base: gradients of 0.5, 0.25 and -0.125
+    const double gradient = (level - 5) / 4;
+    const Settings settings = {fmt::format("water.face.1.level={:g}", level)};
+    Simulation s(scene("upward_seepage", settings));
+    run_to_end(s);
+    CHECK(entering(flow_of(s)) == Approx(1e-5 * std::abs(gradient)).epsilon(1e-8));
+    const double buoyant = 20e3 - 9810, weight = buoyant - gradient * 9810;
+    double worst = 0;
+    const Particles& p = s.model().particles;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      worst = std::max(worst, std::abs(p.stress[i].yy + weight * (4 - p.start[i].y())));
+    expect({.name = "upward_seepage",
+            .settings = settings,
+            .quantity = fmt::format(
+                "vertical effective stress at a gradient of {:g}, largest error over 4 gamma'", gradient),
+            .reference = "weight less buoyancy and seepage force",
+            .resolution = metres(0.2)},
+           worst / (4 * buoyant), 0.002);
+  }
+}
+
+TEST_CASE("seepage: the discharge of a dam and its water table") {
+  // Free surface of Polubarinova-Kochina (1962) at a quarter, half and three quarters of the length.
+  const double exact = 1e-5 * (24 * 24 - 4 * 4) / 32, table[] = {22.591, 20.430, 17.475};
+  for (const double spacing : {1.0, 0.5}) {
+    const Settings settings = {fmt::format("particles.spacing={:g}", spacing),
+                               fmt::format("soil.0.retention.alpha={:g}", 2 / spacing)};
+    Simulation s(scene("seepage_dam", settings));
+    // Capillary flow above the water table adds what its kr carries: it vanishes with 1 / alpha.
+    expect({.name = "seepage_dam",
+            .settings = settings,
+            .quantity = "discharge, with capillary flow of alpha = 2 / spacing",
+            .reference = "Dupuit, Charny: k (H1^2 - H2^2) / 2 L",
+            .resolution = metres(spacing)},
+           entering(flow_of(s)) / exact - 1, 0.018 * spacing);
+    double worst = 0;
+    for (int i = 0; i < 3; ++i) worst = std::max(worst, std::abs(water_table(s, 4 * (i + 1)) - table[i]));
+    expect({.name = "seepage_dam",
+            .settings = settings,
+            .quantity = "water table, largest error over the height",
+            .reference = "Polubarinova-Kochina",
+            .resolution = metres(spacing)},
+           worst / 24, spacing < 1 ? 0.012 : 0.02);
+  }
+}
+
+TEST_CASE("seepage: the discharge under a sheet pile") {
+  for (const double spacing : {0.5, 0.25}) {
+    const Settings settings = {fmt::format("particles.spacing={:g}", spacing)};
+    Case pile = scene("sheet_pile", settings);
+    Simulation s(pile);
+    expect({.name = "sheet_pile",
+            .settings = settings,
+            .quantity = "discharge",
+            .reference = "conformal mapping, a pile without thickness: k h / 2",
+            .resolution = metres(spacing)},
+           std::abs(entering(flow_of(s)) / (1e-5 * 2 * 0.5) - 1), spacing < 0.3 ? 0.03 : 0.06);
+  }
+}
