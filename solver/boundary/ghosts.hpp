@@ -26,10 +26,13 @@ class Ghosts {
   /// of them, and appends the images to `points`.
   Ghosts(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
          std::vector<Vec2>& points);
+  /// These images of `particles` particles, parents before their children.
+  Ghosts(std::span<const Wall> walls, std::vector<Image> images, std::size_t particles);
 
   std::size_t size() const { return images_.size(); }
   std::size_t particles() const { return particles_; }
   const Image& image(std::size_t i) const { return images_[i]; }
+  std::span<const Image> images() const { return images_; }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(images_[i].parent); }
   bool stems_from_ghost(std::size_t i) const { return parent(i) >= particles_; }
   std::int32_t root(std::size_t i) const { return root_[i]; }  ///< the particle that it stems from

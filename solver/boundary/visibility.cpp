@@ -39,22 +39,28 @@ double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * along - p).norm();
 }
 
-double distance_to_line(const Vec2& p, const Vec2& from, const Vec2& to) {
-  return std::abs(cross((to - from).normalized(), p - from));
-}
-
-/// Both ends of the edge lie on the line of the wall.
-bool on_line(const Vec2& a, const Vec2& b, const Wall& wall, double tolerance) {
-  return distance_to_line(a, wall.from, wall.to) < tolerance &&
-         distance_to_line(b, wall.from, wall.to) < tolerance;
-}
-
-/// Where a ghost was at the start.
-Vec2 start_of(std::size_t ghost, const Ghosts& ghosts, const Particles& p) {
-  const Vec2 parent = ghosts.stems_from_ghost(ghost)
-                          ? start_of(ghosts.parent(ghost) - ghosts.particles(), ghosts, p)
-                          : p.start[ghosts.parent(ghost)];
-  return ghosts.wall(ghost).mirrored(parent);
+/// The walls, as far as edges of outlines lie along them.
+std::vector<Wall> along_outlines(std::span<const Wall> walls, const std::vector<Polygon>& rings,
+                                 double tolerance) {
+  std::vector<Wall> clipped(walls.begin(), walls.end());
+  for (Wall& wall : clipped) {
+    const Vec2 along = (wall.to - wall.from).normalized();
+    const double length = (wall.to - wall.from).norm();
+    double low = never, high = -never;
+    for (const Polygon& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        if (std::abs(wall.distance(a)) > tolerance || std::abs(wall.distance(b)) > tolerance) continue;
+        const double one = (a - wall.from).dot(along), other = (b - wall.from).dot(along);
+        const double first = std::max(std::min(one, other), 0.0),
+                     last = std::min(std::max(one, other), length);
+        if (last - first > tolerance) low = std::min(low, first), high = std::max(high, last);
+      }
+    if (low > high) continue;
+    const Vec2 from = wall.from;
+    wall.from = from + low * along, wall.to = from + high * along;
+  }
+  return clipped;
 }
 
 }  // namespace
@@ -62,20 +68,19 @@ Vec2 start_of(std::size_t ghost, const Ghosts& ghosts, const Particles& p) {
 Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall> walls,
                        const Particles& particles, double range, double spacing)
     : range_(range), spacing_(spacing) {
-  const double tolerance = 1e-3 * spacing;
+  std::vector<Polygon> all;
   for (const SoilCase& soil : soils) {
     std::vector<Polygon>& rings = rings_.emplace_back();
     rings.push_back(soil.polygon);
     rings.insert(rings.end(), soil.holes.begin(), soil.holes.end());
+    all.insert(all.end(), rings.begin(), rings.end());
     for (const Polygon& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-        const bool wall = std::any_of(walls.begin(), walls.end(),
-                                      [&](const Wall& w) { return on_line(a, b, w, tolerance); });
-        edges_.push_back({a, b, wall});
-      }
+      for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
   }
-  find_hidden(walls, particles);
+  segments_ = along_outlines(walls, all, 1e-3 * spacing);
+  walls_ = WallPaths(segments_, range);
+  has_slits_ = any_slit_hides(particles);
+  ghosts_everywhere_ = walls_.all_in_sight(particles.start);
 }
 
 /// Inside or on an outline.
@@ -102,7 +107,7 @@ Visibility::Exit Visibility::exit(const Vec2& from, const Vec2& to) const {
     }
     const bool soil_beyond = in_soil(from + (t + step) * way);
     if (left == never && soil_beyond) continue;
-    if (left == never) left = t;
+    if (left == never) left = t, found.at = from + t * way;
     if (t < left + step)
       found.out.push_back(edge);
     else if (soil_beyond) {
@@ -131,68 +136,46 @@ bool Visibility::hides(const Exit& exit) const {
   return true;
 }
 
+/// A line that a wall hides is the walls' matter.
+bool Visibility::through_slit(const Vec2& from, const Vec2& to) const {
+  const Exit way_out = exit(from, to);
+  return hides(way_out) && std::none_of(segments_.begin(), segments_.end(), [&](const Wall& w) {
+           return distance(way_out.at, w.from, w.to) < 1e-3 * spacing_;
+         });
+}
+
+bool Visibility::past_slits(std::int32_t a, std::int32_t b, const Particles& p) const {
+  if (!has_slits_) return true;
+  const double apart = (p.start[a] - p.start[b]).norm();
+  if (apart < range_ && !(near_edge_[a] && near_edge_[b])) return true;
+  const bool contact = apart > spacing_ && (p.position[a] - p.position[b]).norm() < spacing_;
+  return contact || !through_slit(p.start[a], p.start[b]);
+}
+
 bool Visibility::sees(std::int32_t a, std::int32_t b, const Particles& p) const {
-  if (everywhere_) return true;
-  const Exit way_out = exit(p.start[a], p.start[b]);
-  if (!hides(way_out)) return true;
-  const bool contact =
-      (p.position[a] - p.position[b]).norm() < spacing_ && (p.start[a] - p.start[b]).norm() > spacing_;
-  return contact &&
-         std::none_of(way_out.out.begin(), way_out.out.end(), [](const Edge* e) { return e->wall; });
+  return everywhere() ||
+         (walls_.clear(p.position[a], p.position[b], walls_.near(p.position[a])) && past_slits(a, b, p));
 }
 
 bool Visibility::sees_from(const Vec2& point, std::int32_t b, const Particles& p) const {
-  return everywhere_ || !hides(exit(point, p.start[b]));
-}
-
-/// Behind a corner of more than a right angle, ghosts of ghosts lie where a single wall has ghosts already.
-bool Visibility::is_image_in_one_wall(const Vec2& start, std::size_t ghost, const Ghosts& ghosts) const {
-  const auto covers = [&](const Wall& wall) {
-    const Vec2 source = wall.mirrored(start);
-    return wall.faces(source, range_) && in_soil(source);
-  };
-  const std::size_t parent = ghosts.parent(ghost) - ghosts.particles();
-  return covers(ghosts.wall(ghost)) || covers(ghosts.wall(parent));
-}
-
-bool Visibility::sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& ghosts,
-                            const Particles& p) const {
-  if (everywhere_) return true;
-  const Vec2 start = start_of(ghost, ghosts, p);
-  if (ghosts.stems_from_ghost(ghost) && is_image_in_one_wall(start, ghost, ghosts)) return false;
-  const Exit way_out = exit(p.start[a], start);
-  for (std::size_t g = ghost;; g = ghosts.parent(g) - ghosts.particles()) {
-    for (const Edge* edge : way_out.out)
-      if (on_line(edge->a, edge->b, ghosts.wall(g), 1e-3 * spacing_)) return true;
-    if (!ghosts.stems_from_ghost(g)) return false;
-  }
+  return everywhere() || !hides(exit(point, p.start[b]));
 }
 
 /// Of the particles at the start.
-void Visibility::find_hidden(std::span<const Wall> walls, const Particles& p) {
-  const auto n = static_cast<std::int32_t>(p.size());
-  std::vector<std::uint8_t> near(p.size());
+bool Visibility::any_slit_hides(const Particles& p) {
+  near_edge_.resize(p.size());
 #pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a)
-    near[a] = std::any_of(edges_.begin(), edges_.end(),
-                          [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < range_; });
-  std::vector<Vec2> points = p.start;
-  const Ghosts ghosts(walls, 0, walls.size(), range_, points);
-  const NeighbourList all = find_neighbours(points, p.size(), range_);
-  everywhere_ = false;  // so that they are looked at
-  bool soil = false, ghost = false;
-#pragma omp parallel for schedule(dynamic, 256) reduction(|| : soil, ghost)
-  for (std::int32_t a = 0; a < n; ++a) {
-    if (!near[a]) continue;
-    for (const std::int32_t b : all.of(a)) {
-      if (b >= n)
-        ghost = ghost || !sees_ghost(a, b - n, ghosts, p);
-      else
-        soil = soil || (near[b] && !sees(a, b, p));
-    }
-  }
-  everywhere_ = !soil && !ghost;
-  ghosts_everywhere_ = !ghost;
+  for (std::size_t a = 0; a < p.size(); ++a)
+    near_edge_[a] = std::any_of(edges_.begin(), edges_.end(),
+                                [&](const Edge& e) { return distance(p.start[a], e.a, e.b) < range_; });
+  const NeighbourList near = find_neighbours(p.start, p.size(), range_);
+  bool hidden = false;
+#pragma omp parallel for schedule(dynamic, 256) reduction(|| : hidden)
+  for (std::size_t a = 0; a < p.size(); ++a)
+    if (near_edge_[a])
+      for (const std::int32_t b : near.of(a))
+        hidden = hidden || (near_edge_[b] && through_slit(p.start[a], p.start[b]));
+  return hidden;
 }
 
 }  // namespace porosph

@@ -5,18 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "solver/boundary/ghosts.hpp"
+#include "solver/boundary/wall_paths.hpp"
 #include "solver/case/case.hpp"
 #include "solver/particles/particles.hpp"
 
 namespace porosph {
 
-/// Everything is decided by where particles started, since the outlines are those of t = 0. Two particles of
-/// the soil do not see each other where the straight line between them leaves the soil, through a wall, a
-/// slit or a gap. They do around a corner that leaves more than 60 degrees free, such as a toe; and past a
-/// free surface once they have come nearer than the spacing (contact). A particle sees a ghost where the line
-/// to it leaves the soil through the wall, or one of the walls, that the ghost is mirrored in. So the walls
-/// of a thin plate, of a hole and of a re-entrant corner each act on their own side.
+/// Walls stand where they are, so lines between particles are held against them where the particles are now.
+/// Free edges of the outlines move with the soil, so they count where the particles started: two particles do
+/// not see each other where the straight line between their starts leaves the soil, through a slit or a gap.
+/// They do around a corner that leaves more than 60 degrees free, such as a toe; and once they have come
+/// nearer than the spacing (contact). What is seen behind walls is the matter of WallPaths.
 class Visibility {
  public:
   Visibility() = default;  ///< nothing is hidden
@@ -25,38 +24,43 @@ class Visibility {
              double range, double spacing);
 
   /// In most scenes nothing is hidden from anything within the kernel's range.
-  bool everywhere() const { return everywhere_; }
-  /// No ghost is hidden; soil may be, past slits and gaps.
+  bool everywhere() const { return ghosts_everywhere_ && !has_slits_; }
+  /// No ghost is hidden, and mirroring in one wall after the other makes all; soil may be, past slits and
+  /// gaps.
   bool ghosts_everywhere() const { return ghosts_everywhere_; }
 
   /// Whether particle a sees particle b.
   bool sees(std::int32_t a, std::int32_t b, const Particles& particles) const;
-  /// Whether particle a sees a ghost.
-  bool sees_ghost(std::int32_t a, std::size_t ghost, const Ghosts& ghosts, const Particles& particles) const;
+  /// No slit or gap parts them.
+  bool past_slits(std::int32_t a, std::int32_t b, const Particles& particles) const;
+  const WallPaths& walls() const { return walls_; }
   /// Whether a point of the soil at the start sees a particle [m].
   bool sees_from(const Vec2& point, std::int32_t b, const Particles& particles) const;
 
  private:
   struct Edge {
     Vec2 a, b;
-    bool wall;  ///< lies on a wall
   };
   /// Where a line leaves the soil: all edges that meet there, and the one through which it comes back.
   struct Exit {
     std::vector<const Edge*> out;
     const Edge* back = nullptr;
+    Vec2 at = Vec2::Zero();
     bool stays() const { return out.empty(); }
   };
   Exit exit(const Vec2& from, const Vec2& to) const;
   bool hides(const Exit& exit) const;
-  bool is_image_in_one_wall(const Vec2& start, std::size_t ghost, const Ghosts& ghosts) const;
   bool in_soil(const Vec2& p) const;
-  void find_hidden(std::span<const Wall> walls, const Particles& particles);
+  bool through_slit(const Vec2& from, const Vec2& to) const;
+  bool any_slit_hides(const Particles& particles);
 
   std::vector<Edge> edges_;
+  std::vector<std::uint8_t> near_edge_;  ///< of particles: within the range of an edge at the start
+  WallPaths walls_;
+  std::vector<Wall> segments_;               ///< walls, as far as outlines go
   std::vector<std::vector<Polygon>> rings_;  ///< of each soil: outline, then holes
   double range_ = 0, spacing_ = 0;
-  bool everywhere_ = true, ghosts_everywhere_ = true;
+  bool has_slits_ = false, ghosts_everywhere_ = true;
 };
 
 }  // namespace porosph

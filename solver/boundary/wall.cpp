@@ -11,6 +11,18 @@ namespace {
 
 constexpr double on_line = 1e-9;  // relative to the search range
 
+/// Towards the side on which soil lies along more of the wall; zero where it lies on neither.
+Vec2 normal_by_soil(const Wall& wall, double range, const std::function<bool(const Vec2&)>& in_soil) {
+  constexpr int samples = 64;
+  const Vec2 tangent = (wall.to - wall.from).normalized(), left(-tangent.y(), tangent.x());
+  int balance = 0;
+  for (int k = 0; k < samples; ++k) {
+    const Vec2 at = wall.from + (k + 0.5) / samples * (wall.to - wall.from), aside = 1e-3 * range * left;
+    balance += in_soil(at + aside) - in_soil(at - aside);
+  }
+  return balance > 0 ? left : balance < 0 ? Vec2(-left) : Vec2(Vec2::Zero());
+}
+
 Vec2 normal_towards(const Wall& wall, std::span<const Vec2> points, double range) {
   const Vec2 tangent = (wall.to - wall.from).normalized();
   Wall left = wall, right = wall;
@@ -54,11 +66,12 @@ bool Wall::faces(const Vec2& p, double range) const {
 }
 
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
-                             double range) {
+                             double range, const std::function<bool(const Vec2&)>& in_soil) {
   std::vector<Wall> walls;
   for (const BoundaryCase& b : boundaries) walls.push_back({.kind = b.kind, .from = b.from, .to = b.to});
   for (Wall& wall : walls) {
-    wall.normal = normal_towards(wall, points, range);
+    if (in_soil) wall.normal = normal_by_soil(wall, range, in_soil);
+    if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, points, range);
     wall.bears_weight = wall.support().carries_shear() || std::abs(wall.normal.y()) > 1e-9;
   }
   const auto rank = [](const Wall& w) { return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : 2; };

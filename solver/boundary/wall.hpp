@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,11 +38,11 @@ struct Image {
 /// The particle that each image stems from; the first `particles` parents are no images.
 std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles);
 
-/// Walls of a case, each facing the soil that `points` stand for. Fixed ones first, then rollers that bear
-/// weight, then the others: each mirrors what those before it made. Throws std::runtime_error where a
-/// boundary touches no soil.
+/// Walls of a case, each facing the soil: what in_soil(place) says beside it or, without an answer, the
+/// nearest of `points`. Fixed ones first, then rollers that bear weight, then the others: each mirrors what
+/// those before it made. Throws std::runtime_error where a boundary touches no soil.
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
-                             double range);
+                             double range, const std::function<bool(const Vec2&)>& in_soil = {});
 
 /// Appends to `points` the images, in walls `first` to `last - 1`, of all points within `range` [m] of them.
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,

@@ -75,17 +75,42 @@ std::string fault_along(const Case& c, const BoundaryCase& b, double tolerance) 
   return all.left || all.right ? "" : "does not lie on the outline of any soil";
 }
 
-std::string fault_of_pair(const BoundaryCase& a, const BoundaryCase& b, double tolerance) {
+// The angle of the soil in the corner of two boundaries, where they are not in one line [degrees]; 180 where
+// no soil lies between them.
+double angle_of_soil(const Case& c, const BoundaryCase& a, const BoundaryCase& b, double tolerance) {
+  const Point u = unit(a), v = unit(b), between = b.from - a.from;
+  const double along = (between.x() * v.y() - between.y() * v.x()) / (u.x() * v.y() - u.y() * v.x());
+  const Point corner = a.from + along * u;
+  const auto ways = [&](const BoundaryCase& boundary) {
+    std::vector<Point> found;
+    for (const Point& end : {boundary.from, boundary.to})
+      if ((end - corner).norm() > tolerance) found.push_back((end - corner).normalized());
+    return found;
+  };
+  double least = 180;
+  for (const Point& p : ways(a))
+    for (const Point& q : ways(b)) {
+      const Point inside = corner + 10 * tolerance * (p + q).normalized();
+      const auto holds = [&](const SoilCase& soil) { return distance(inside, soil) == 0; };
+      if (std::any_of(c.soils.begin(), c.soils.end(), holds))
+        least = std::min(least, std::acos(std::clamp(p.dot(q), -1.0, 1.0)) * 180 / std::numbers::pi);
+    }
+  return least;
+}
+
+std::string fault_of_pair(const Case& c, const BoundaryCase& a, const BoundaryCase& b, double tolerance) {
   if (distance(a.from, a.to, b.from, b.to) > tolerance) return "";
-  constexpr double right = 1e-4;  // the sine of an angle that counts as none
+  constexpr double in_line = 1e-4;  // the sine of an angle that counts as none
   const Point u = unit(a), v = unit(b);
   const double sine = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(sine) > right) {
-    constexpr double sharpest = 45;  // degrees: ghosts of ghosts would have ghosts of their own
-    const double angle = std::atan2(std::abs(sine), std::abs(u.dot(v))) * 180 / std::numbers::pi;
-    return angle >= sharpest - 1e-6
-               ? ""
-               : fmt::format("at an angle of {:.4g} degrees: must be {} to 90, or one line", angle, sharpest);
+  if (std::abs(sine) > in_line) {
+    constexpr double sharpest = 30;  // degrees
+    const double angle = angle_of_soil(c, a, b, tolerance);
+    return angle >= sharpest - 1e-6 ? ""
+                                    : fmt::format(
+                                          "at an angle of {:.4g} degrees: the soil between them must "
+                                          "have {} degrees or more",
+                                          angle, sharpest);
   }
   const double b0 = u.dot(b.from - a.from), b1 = u.dot(b.to - a.from), length = (a.to - a.from).norm();
   const double common = std::min(length, std::max(b0, b1)) - std::max(0., std::min(b0, b1));
@@ -153,7 +178,7 @@ std::vector<CaseIssue> check_boundaries(const Case& c) {
 
   for (std::size_t i = 0; i < c.boundaries.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const std::string fault = fault_of_pair(c.boundaries[j], c.boundaries[i], tolerance);
+      const std::string fault = fault_of_pair(c, c.boundaries[j], c.boundaries[i], tolerance);
       if (!fault.empty()) issues.push_back({name(i), fmt::format("meets {} {}", name(j), fault)});
     }
   if (c.loading.gravity_applied && issues.empty()) issues = unsupported(c, tolerance);

@@ -177,10 +177,11 @@ void declare(Fields& f, Case& c) {
       Key("water", "",
           "Water in the pores: at rest below its level, or in steady flow. Without this table all is dry."),
       c.water, c.water.present() || c.water.flows());
-  f.tables(Key("boundary", "",
-               "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
-               "soil; boundaries that meet do so in one line or at an angle of 45 degrees or more."),
-           c.boundaries);
+  f.tables(
+      Key("boundary", "",
+          "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
+          "soil. Boundaries may meet at any angle at which the soil between them has 30 degrees or more."),
+      c.boundaries);
   f.tables(
       Key("load", "",
           "A force on the soil's surface: on a straight stretch of a free outline, as it is at the start, "
@@ -465,8 +466,9 @@ void declare(Fields& f, FormulationCase& c) {
       key_of_consistent("zero_energy_stiffness",
                         "Elastic part of that control: a spring of this times the control's strength "
                         "times the constrained modulus of the softest soil in reach; 0: viscous only.")
-          .otherwise("0, but 0.1 where soils of different stiffness meet, outlines cut cells or gradients "
-                     "had to be closed"),
+          .otherwise("0.1 where soils of different stiffness meet or outlines cut cells; 0.6 where walls "
+                     "turn corners, slits part the soil or gradients had to be closed, 0.1 if it may "
+                     "yield; else 0"),
       c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
@@ -528,7 +530,8 @@ void declare(Fields& f, CheckCase& c) {
   f.flag_or(
       Key("finite_elements", "",
           "Whether the state of rest is compared with finite elements of small strain (docs/reports.md). "
-          "`\"auto\"`: where they apply and cost less than a tenth of the run; `true`: always, an error "
+          "`\"auto\"`: where they apply and cost less than a second or a tenth of the run; `true`: always, "
+          "an error "
           "where "
           "they do not apply."),
       c.finite_elements, "auto", c.finite_elements_auto);

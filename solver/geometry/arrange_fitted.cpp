@@ -18,7 +18,7 @@ HalfPlane side_of_cell(const Grid& grid, int cell, int side) {
   return {normal, normal.dot(grid.centre(cell)) + grid.spacing / 2};
 }
 
-void cut_cell(const Grid& grid, int cell, std::vector<Polygon> row, Pieces& pieces) {
+void cut_cell(const Grid& grid, int cell, const Region& region, std::vector<Polygon> row, Pieces& pieces) {
   clip(row, side_of_cell(grid, cell, 1));
   clip(row, side_of_cell(grid, cell, 2));
   const Point centre = grid.centre(cell);
@@ -29,18 +29,16 @@ void cut_cell(const Grid& grid, int cell, std::vector<Polygon> row, Pieces& piec
     pieces.all.push_back({cell, grid.cell_area(), centre});
     return;
   }
-  if (fraction < sliver) {
-    SideLengths& sides = pieces.slivers[static_cast<int>(pieces.all.size())];
-    for (int side = 0; side < 4; ++side)
-      sides[side] = length_on_line(row, side_of_cell(grid, cell, side), round_off * grid.spacing);
-  }
-  pieces.all.push_back({cell, m.area, centre + m.first / m.area});
+  const Point half = Point::Constant(grid.spacing / 2);
+  for (const std::vector<Polygon>& part : parts_of_cell(row, region, centre - half, centre + half))
+    add_piece(pieces, cell, part, centre, [&](int side) { return side_of_cell(grid, cell, side); });
 }
 
 Pieces cut_cells(const Grid& grid, const Region& region) {
   const std::vector<CellPlace> places = place_cells(grid, region, 1e-6 * grid.spacing);
   Pieces pieces{.all = {},
                 .slivers = {},
+                .stretches = {},
                 .columns = grid.columns,
                 .rows = grid.rows,
                 .enough_area = sliver * grid.cell_area(),
@@ -50,7 +48,7 @@ Pieces cut_cells(const Grid& grid, const Region& region) {
     clip(strip, side_of_cell(grid, grid.cell(0, row), 0));
     clip(strip, side_of_cell(grid, grid.cell(0, row), 3));
     for (int cell = grid.cell(0, row); cell < grid.cell(0, row + 1); ++cell) {
-      if (places[cell] == CellPlace::at_outline) cut_cell(grid, cell, strip, pieces);
+      if (places[cell] == CellPlace::at_outline) cut_cell(grid, cell, region, strip, pieces);
       if (places[cell] == CellPlace::inside)
         pieces.all.push_back({cell, grid.cell_area(), grid.centre(cell)});
     }

@@ -17,6 +17,8 @@ struct Cells {
 
   int count(const std::vector<Band>& bands) const { return static_cast<int>(bands.size()); }
   Point middle(int cell) const { return {column(cell).middle, row(cell).middle}; }
+  Point low(int cell) const { return {column(cell).low, row(cell).low}; }
+  Point high(int cell) const { return {column(cell).high, row(cell).high}; }
   double area(int cell) const { return column(cell).width * row(cell).width; }
   const Band& column(int cell) const { return columns[cell % columns.size()]; }
   const Band& row(int cell) const { return rows[cell / columns.size()]; }
@@ -42,6 +44,7 @@ bool is_rectangle_around(const Point& p, const std::vector<Polygon>& rings, doub
 Pieces cut_cells(const Cells& cells, const Region& region, double spacing, std::vector<char>& at_middle) {
   Pieces pieces{.all = {},
                 .slivers = {},
+                .stretches = {},
                 .columns = cells.count(cells.columns),
                 .rows = cells.count(cells.rows),
                 .enough_area = sliver * spacing * spacing,
@@ -61,12 +64,12 @@ Pieces cut_cells(const Cells& cells, const Region& region, double spacing, std::
     const Moments m = moments(rings, middle);
     if (m.area < round_off * cells.area(cell)) continue;
     at_middle[cell] = is_rectangle_around(middle, rings, m.area, 1e-6 * spacing);
-    if (!at_middle[cell] && m.area < pieces.enough_area) {
-      SideLengths& lengths = pieces.slivers[static_cast<int>(pieces.all.size())];
-      for (int side = 0; side < 4; ++side)
-        lengths[side] = length_on_line(rings, cells.side(cell, side), round_off * spacing);
+    if (at_middle[cell]) {
+      pieces.all.push_back({cell, m.area, middle + m.first / m.area});
+      continue;
     }
-    pieces.all.push_back({cell, m.area, middle + m.first / m.area});
+    for (const std::vector<Polygon>& part : parts_of_cell(rings, region, cells.low(cell), cells.high(cell)))
+      add_piece(pieces, cell, part, middle, [&](int side) { return cells.side(cell, side); });
   }
   return pieces;
 }

@@ -20,7 +20,8 @@ std::vector<CellSite> arrange_lattice(const Grid& grid, const std::vector<Region
 
 /// Cells cut by the outline; slivers of less than 0.45 spacing^2 are joined with the neighbour of the same
 /// soil that they share the longest edge with. Area and centroid are those of what results, so that each
-/// soil's area and first moments are kept. Walls and slits thinner than a cell do not part a particle in two.
+/// soil's area and first moments are kept. What a thin wall or slit parts within a cell are pieces
+/// of their own.
 std::vector<CellSite> arrange_fitted(const Grid& grid, const std::vector<Region>& regions);
 
 /// Sites of arrange_lattice, each displaced at random by up to disorder * spacing in x and in y, but not out

@@ -42,4 +42,16 @@ double length_on_line(const std::vector<Polygon>& rings, const HalfPlane& half_p
   return length;
 }
 
+Stretch stretch_on_line(const std::vector<Polygon>& rings, const HalfPlane& half_plane, double tolerance) {
+  const Point along(-half_plane.normal.y(), half_plane.normal.x());
+  Stretch stretch{never, -never};
+  for (const Polygon& ring : rings)
+    for (const Point& p : ring) {
+      if (std::abs(half_plane.normal.dot(p) - half_plane.offset) > tolerance) continue;
+      stretch.from = std::min(stretch.from, along.dot(p));
+      stretch.to = std::max(stretch.to, along.dot(p));
+    }
+  return stretch;
+}
+
 }  // namespace porosph

@@ -23,4 +23,11 @@ void clip(std::vector<Polygon>& rings, const HalfPlane& half_plane);
 /// half_plane: with a unit normal. tolerance: distance up to which a point is on the line [m].
 double length_on_line(const std::vector<Polygon>& rings, const HalfPlane& half_plane, double tolerance);
 
+/// The stretch along the half-plane's line, to the left of its normal, from the first to the last point that
+/// the rings have there [m]; no stretch (from > to) if they have none.
+struct Stretch {
+  double from, to;
+};
+Stretch stretch_on_line(const std::vector<Polygon>& rings, const HalfPlane& half_plane, double tolerance);
+
 }  // namespace porosph

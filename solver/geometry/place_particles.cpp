@@ -73,6 +73,8 @@ std::vector<Site> place_particles(const Case& scene) {
   check_apart(scene.soils, regions);
   std::vector<CellSite> sites = arrange(scene, regions);
   std::ranges::stable_sort(sites, {}, &CellSite::cell);
+  for (CellSite& s : sites)  // the centroid of a cell around a corner of a wall may lie behind it
+    s.site.position = regions[s.site.soil].nearest_inside(s.site.position, 0.1 * scene.particles.spacing);
   check_filled(scene, sites);
 
   std::vector<Site> result;

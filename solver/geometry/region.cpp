@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <boost/geometry.hpp>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "solver/geometry/moments.hpp"
@@ -80,6 +82,44 @@ double Region::distance_to_outline(const Point& p) const {
 
 bool Region::contains(const Point& p) const {
   return distance_to_outline(p) <= 1e-9 * size() || strictly_inside(p, rings_);
+}
+
+std::vector<std::vector<Polygon>> Region::parts_within(const Point& low, const Point& high) const {
+  const bg::model::box<BoostPoint> box(boost_point(low), boost_point(high));
+  bg::model::multi_polygon<BoostPolygon> common;
+  bg::intersection(boost_polygon(rings_), box, common);
+  std::vector<std::vector<Polygon>> parts;
+  for (const BoostPolygon& part : common) {
+    std::vector<Polygon>& rings = parts.emplace_back();
+    const auto append = [&](const auto& ring) {
+      Polygon& points = rings.emplace_back();
+      for (const BoostPoint& p : ring) points.emplace_back(p.x(), p.y());
+    };
+    append(part.outer());
+    for (const auto& hole : part.inners()) append(hole);
+  }
+  return parts;
+}
+
+Point Region::nearest_inside(const Point& p, double depth) const {
+  if (strictly_inside(p, rings_) || contains(p)) return p;
+  constexpr int directions = 16;
+  Point best = p;
+  double least = never;
+  for (const Polygon& ring : rings_)
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const Point edge = ring[i] - ring[j];
+      const double along = std::clamp((p - ring[j]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+      const Point foot = ring[j] + along * edge;
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2 * std::numbers::pi * k / directions;
+        const Point place = foot + depth * Point(std::cos(angle), std::sin(angle));
+        const double away = (place - p).norm();
+        if (away < least && strictly_inside(place, rings_) && distance_to_outline(place) > 0.5 * depth)
+          best = place, least = away;
+      }
+    }
+  return best;
 }
 
 double Region::overlap(const Region& other) const {

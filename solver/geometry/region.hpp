@@ -24,7 +24,11 @@ class Region {
   Point centroid() const;                            ///< of the area [m]
   double distance_to_outline(const Point& p) const;  ///< to the nearest point of any ring [m]
   bool contains(const Point& p) const;               ///< inside, or within 1e-9 size() of a ring
-  double overlap(const Region& other) const;         ///< area in common [m2]
+  /// What lies in an upright box: of each piece that hangs together, outline and holes.
+  std::vector<std::vector<Polygon>> parts_within(const Point& low, const Point& high) const;
+  /// The place itself if it is inside; else one near it that is inside by about `depth` [m].
+  Point nearest_inside(const Point& p, double depth) const;
+  double overlap(const Region& other) const;  ///< area in common [m2]
 
  private:
   std::vector<Polygon> rings_;

@@ -10,6 +10,7 @@
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
+#include "solver/geometry/region.hpp"
 #include "solver/model/initial_velocity.hpp"
 #include "solver/model/soil_law.hpp"
 #include "solver/water/steady_water.hpp"
@@ -59,6 +60,14 @@ void add_k0_stress(const Case& scene, Particles& particles) {
   }
 }
 
+std::vector<Wall> walls_of(const Case& scene, std::span<const Vec2> points) {
+  std::vector<Region> soils;
+  for (const SoilCase& soil : scene.soils) soils.emplace_back(soil.polygon, soil.holes);
+  return make_walls(scene.boundaries, points, 2 * scene.smoothing_length(), [&](const Vec2& place) {
+    return std::any_of(soils.begin(), soils.end(), [&](const Region& r) { return r.contains(place); });
+  });
+}
+
 }  // namespace
 
 Model build_model(const Case& case_as_drawn) {
@@ -86,7 +95,7 @@ Model build_model(const Case& case_as_drawn) {
     water->wet(scene, model.particles);
     model.pore_water = water;
   }
-  model.walls = make_walls(scene.boundaries, model.particles.position, 2 * model.smoothing_length);
+  model.walls = walls_of(scene, model.particles.position);
   model.visibility =
       Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {

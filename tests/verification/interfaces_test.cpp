@@ -1,5 +1,9 @@
 // Soils of different stiffness on each other: stress by the weight above, displacements without a zigzag.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "solver/run/monitor/zigzag.hpp"
 #include "tests/box_of_soil.hpp"
@@ -30,6 +34,20 @@ Simulation stiff_on_soft(int rows, double contrast) {
   Simulation simulation(scene);
   run_to_end(simulation);
   return simulation;
+}
+
+/// The layered embankment with a soft layer of 8 MPa between soils of `contrast` times that, and half of it.
+Simulation layered_embankment(const std::string& arrangement, double contrast, double spacing) {
+  Settings settings = {"particles.arrangement=" + arrangement,
+                       fmt::format("particles.spacing={}", spacing),
+                       fmt::format("soil.gravel.youngs_modulus={}", 8e6 * contrast),
+                       fmt::format("soil.fill.youngs_modulus={}", 8e6 * std::max(1.0, contrast / 2)),
+                       "loading.damping=adaptive",
+                       "time.end=1000",
+                       "stop.unbalanced_force_ratio=1e-5"};
+  if (arrangement == "disordered") settings.push_back("particles.disorder=0.1");
+  if (arrangement == "surface") settings.push_back("particles.smoothing_ratio=1.0");
+  return Simulation(scene("embankment_layered", settings));
 }
 
 }  // namespace
@@ -71,4 +89,33 @@ TEST_CASE("displacements of a layered embankment do not zigzag", "[interfaces]")
   CHECK(at_rest.rms < 0.02);
   CHECK(at_rest.quantile < 0.1);
   CHECK(at_rest.rms < 1.05 * half_way + 1e-3);
+}
+
+TEST_CASE("layered embankments do not zigzag, whatever the arrangement and the contrast", "[interfaces]") {
+  const std::string arrangement = GENERATE("lattice", "fitted", "surface", "disordered");
+  const double contrast = GENERATE(1.0, 100.0);
+  CAPTURE(arrangement, contrast);
+  Simulation simulation = layered_embankment(arrangement, contrast, 0.3);
+  run_to_end(simulation);
+  const Zigzag at_rest = measure_zigzag(simulation.model());
+  CHECK(at_rest.rms < 0.02);
+  CHECK(at_rest.quantile < 0.1);
+  for (auto left = simulation.step(); left > 0; --left) simulation.advance();
+  CHECK(measure_zigzag(simulation.model()).rms < 1.02 * at_rest.rms);
+}
+
+// Minutes: for a night. docs/verification.md has what it measured.
+TEST_CASE("no zigzag grows over a million steps", "[.nightly]") {
+  const std::string arrangement = GENERATE("lattice", "fitted", "surface", "disordered");
+  const double contrast = GENERATE(1.0, 1e4);
+  CAPTURE(arrangement, contrast);
+  Simulation simulation = layered_embankment(arrangement, contrast, 0.6);
+  run_to_end(simulation);
+  const Zigzag at_rest = measure_zigzag(simulation.model());
+  while (simulation.step() < 1000000) simulation.advance();
+  const Zigzag late = measure_zigzag(simulation.model());
+  WARN(arrangement << ", contrast " << contrast << ": at rest " << at_rest.rms << ", " << at_rest.quantile
+                   << ", after a million steps " << late.rms << ", " << late.quantile);
+  CHECK(late.rms < 1.02 * at_rest.rms);
+  CHECK(late.quantile < 1.02 * at_rest.quantile);
 }

@@ -26,6 +26,18 @@ Mat2 gradient(const Particles& p, std::size_t a, std::span<const std::int32_t> n
   return product * inverse(moment);
 }
 
+/// The largest displacement, spread evenly over the body's length, from neighbour to neighbour [m].
+double usual_difference(const Model& model) {
+  const Particles& p = model.particles;
+  double largest = 0;
+  Vec2 low = p.start[0], high = low;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    largest = std::max(largest, p.displacement(a).squaredNorm());
+    low = low.cwiseMin(p.start[a]), high = high.cwiseMax(p.start[a]);
+  }
+  return std::sqrt(largest) * model.spacing / (high - low).maxCoeff();
+}
+
 }  // namespace
 
 Zigzag measure_zigzag(const Model& model) {
@@ -62,15 +74,16 @@ Zigzag measure_zigzag(const Model& model) {
   const double differences = deterministic_sum(p.size(), [&](std::size_t a) { return difference[a]; });
   Zigzag found;
   if (!(inside > 0 && differences > 0)) return found;
+  const double scale = std::max(std::sqrt(differences / inside), usual_difference(model));
   const auto largest = std::max_element(zigzag.begin(), zigzag.end());
   found.largest = *largest;
   found.where = p.start[largest - zigzag.begin()] + model.origin;
-  found.rms = std::sqrt(squares / differences);
+  found.rms = std::sqrt(squares / inside) / scale;
   std::erase_if(zigzag, [](double z) { return z < 0; });
   const auto rank =
       zigzag.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(zigzag.size() - 1));
   std::nth_element(zigzag.begin(), rank, zigzag.end());
-  found.quantile = *rank / std::sqrt(differences / inside);
+  found.quantile = *rank / scale;
   return found;
 }
 

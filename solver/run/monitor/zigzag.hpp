@@ -10,7 +10,10 @@ namespace porosph {
 /// is zero for displacements that are linear or quadratic. Amplitudes are those of rows that move up and down
 /// in turn.
 struct Zigzag {
-  double rms = 0;       ///< over the RMS difference of the displacements of neighbours [-]
+  /// Over the RMS difference of the displacements of neighbours [-]. Where stiff soil hardly deforms, and
+  /// soft soil has no particles that count, at least the difference counts that spreads the largest
+  /// displacement evenly over the body's length.
+  double rms = 0;
   double quantile = 0;  ///< 99 % of the particles have less, over the same [-]
   double largest = 0;   ///< amplitude [m]
   Vec2 where{0, 0};     ///< of the particle with the largest, at t = 0, in the case's coordinates [m]

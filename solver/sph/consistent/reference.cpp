@@ -15,15 +15,28 @@ void make_volumes(const Particles& p, ReferenceConfiguration& r) {
   r.ghosts.fill<Mirrors::scalar>(r.volume);
 }
 
+Ghosts ghosts_behind_walls(const Model& model, double range, std::vector<Vec2>& points) {
+  const std::size_t n = points.size();
+  if (model.visibility.everywhere()) return {model.walls, 0, model.walls.size(), range, points};
+  return {model.walls, model.visibility.walls().append_seen_images(points), n};
+}
+
 /// Particles and ghosts that a particle's kernel reaches and that it sees.
 NeighbourList visible_neighbours(const Model& model, const ReferenceConfiguration& r,
                                  const CubicSpline<2>& kernel) {
   NeighbourList all = stencil_neighbours(r.points, r.particles(), kernel);
   if (model.visibility.everywhere()) return all;
+  const WallPaths& walls = model.visibility.walls();
+  const Particles& p = model.particles;
   const auto n = static_cast<std::int32_t>(r.particles());
+  std::vector<std::vector<std::int32_t>> near(n);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) near[a] = walls.near(r.points[a]);
   return kept(all, [&](std::int32_t a, std::int32_t b) {
-    return b < n ? model.visibility.sees(a, b, model.particles)
-                 : model.visibility.sees_ghost(a, b - n, r.ghosts, model.particles);
+    if (b < n) return walls.clear(r.points[a], r.points[b], near[a]) && model.visibility.past_slits(a, b, p);
+    const std::size_t ghost = b - n;
+    return walls.leads(r.points[a], r.points[b], ghost, r.ghosts.images(), n, near[a]) &&
+           model.visibility.past_slits(a, r.ghosts.root(ghost), p);
   });
 }
 
@@ -71,7 +84,7 @@ ReferenceConfiguration make_reference(const Model& model, const FormulationCase&
   const CubicSpline<2> kernel(model.smoothing_length);
   ReferenceConfiguration r;
   r.points = model.particles.position;
-  r.ghosts = Ghosts(model.walls, 0, model.walls.size(), kernel.support(), r.points);
+  r.ghosts = ghosts_behind_walls(model, kernel.support(), r.points);
   make_volumes(model.particles, r);
   r.stencils = make_pair_stencils(r.points, visible_neighbours(model, r, kernel), r.volume, kernel,
                                   formulation.single_precision);

@@ -4,24 +4,43 @@
 
 namespace porosph {
 
-StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, std::span<const Wall> walls) {
+StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r) {
   const Ghosts& ghosts = r.ghosts;
-  while (extrapolated_ < ghosts.size() && walls[ghosts.image(extrapolated_).wall].bears_weight)
-    ++extrapolated_;
   std::vector<std::uint8_t> from_extrapolated(ghosts.size());
-  for (std::size_t i = 0; i < ghosts.size(); ++i)
-    from_extrapolated[i] = i < extrapolated_ || (ghosts.stems_from_ghost(i) &&
-                                                 from_extrapolated[ghosts.parent(i) - ghosts.particles()]);
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    const bool extrapolates = ghosts.wall(i).bears_weight;
+    (extrapolates ? extrapolated_ : mirrored_).push_back(i);
+    from_extrapolated[i] = extrapolates || (ghosts.stems_from_ghost(i) &&
+                                            from_extrapolated[ghosts.parent(i) - ghosts.particles()]);
+  }
   std::vector<std::int32_t> place(ghosts.particles(), -1);
-  for (std::size_t i = 0; i < extrapolated_; ++i) {
+  for (const std::size_t i : extrapolated_) {
     const std::int32_t a = ghosts.root(i);
     if (place[a] < 0) {
       place[a] = static_cast<std::int32_t>(stencils_.size());
       stencils_.push_back(one_sided(r, a, from_extrapolated));
     }
-    stencil_of_.push_back(place[a]);
+    continued_.push_back(continuation(r, i, place[a]));
   }
   gradients_.resize(stencils_.size());
+}
+
+/// Where the ghost lies in the soil's field, once what walls without weight mirrored is turned back.
+StressBehindWalls::Continued StressBehindWalls::continuation(const ReferenceConfiguration& r,
+                                                             std::size_t ghost, std::int32_t stencil) {
+  const Ghosts& ghosts = r.ghosts;
+  Continued c{.stencil = stencil};
+  Vec2 place = r.points[ghosts.particles() + ghost];
+  for (std::size_t i = ghost;; i = ghosts.parent(i) - ghosts.particles()) {
+    if (!ghosts.wall(i).bears_weight) {
+      place = ghosts.wall(i).mirrored(place);
+      c.turn = c.turn * ghosts.reflection(i);
+      c.turned = true;
+    }
+    if (!ghosts.stems_from_ghost(i)) break;
+  }
+  c.way = place - r.points[ghosts.root(ghost)];
+  return c;
 }
 
 StressBehindWalls::OneSided StressBehindWalls::one_sided(
@@ -59,12 +78,13 @@ void StressBehindWalls::fill(const ReferenceConfiguration& r, std::vector<PlaneT
   const auto mirror = [&](std::size_t i) {
     piola[n + i] = plane_tensor(ghosts.mirrored<Mirrors::tensor>(i, matrix(piola[ghosts.parent(i)])));
   };
-  ghosts.for_each(mirror, extrapolated_);
+  for (const std::size_t i : mirrored_) mirror(i);
   sum_gradients(piola);
 #pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < extrapolated_; ++i) piola[n + i] = plane_tensor(extrapolated(r, i, piola));
-  for (const std::size_t i : ghosts.of_ghosts())  // those mirror what was extrapolated
-    if (i >= extrapolated_) mirror(i);
+  for (std::size_t k = 0; k < extrapolated_.size(); ++k)
+    piola[n + extrapolated_[k]] = plane_tensor(extrapolated(r, k, piola));
+  for (const std::size_t i : mirrored_)  // those mirror what was extrapolated
+    if (ghosts.stems_from_ghost(i)) mirror(i);
 }
 
 void StressBehindWalls::sum_gradients(const std::vector<PlaneTensor>& piola) {
@@ -82,17 +102,18 @@ void StressBehindWalls::sum_gradients(const std::vector<PlaneTensor>& piola) {
   }
 }
 
-Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_t i,
+Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_t k,
                                      const std::vector<PlaneTensor>& piola) const {
-  const auto& [along_x, along_y] = gradients_[stencil_of_[i]];
-  const std::int32_t a = r.ghosts.root(i);
-  const Mat2 root = matrix(piola[a]);
-  const Vec2 way = r.points[r.ghosts.particles() + i] - r.points[a];
-  const Mat2 stress = root + along_x * way.x() + along_y * way.y();
-  const Wall& wall = r.ghosts.wall(i);
+  const std::size_t ghost = extrapolated_[k];
+  const Continued& c = continued_[k];
+  const auto& [along_x, along_y] = gradients_[c.stencil];
+  Mat2 root = matrix(piola[r.ghosts.root(ghost)]);
+  Mat2 stress = root + along_x * c.way.x() + along_y * c.way.y();
+  if (c.turned) root = c.turn * root * c.turn.transpose(), stress = c.turn * stress * c.turn.transpose();
+  const Wall& wall = r.ghosts.wall(ghost);
   if (wall.support().carries_shear()) return stress;
   const Mat2 across = wall.normal * wall.normal.transpose(), along = Mat2::Identity() - across;
-  const Mat2 mirrored = r.ghosts.mirrored<Mirrors::tensor>(i, root);
+  const Mat2 mirrored = r.ghosts.mirrored<Mirrors::tensor>(ghost, root);
   return across * stress * across + along * stress * along + across * mirrored * along +
          along * mirrored * across;
 }

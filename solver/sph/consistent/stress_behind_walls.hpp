@@ -13,7 +13,7 @@ namespace porosph {
 class StressBehindWalls {
  public:
   StressBehindWalls() = default;
-  StressBehindWalls(const ReferenceConfiguration& reference, std::span<const Wall> walls);
+  explicit StressBehindWalls(const ReferenceConfiguration& reference);
 
   /// Fills P of the ghosts: mirrored, or extrapolated where the wall bears weight. `piola`: particles, then
   /// ghosts; of the particles, those that uses() names are read.
@@ -28,15 +28,23 @@ class StressBehindWalls {
     std::vector<std::int32_t> neighbours;
     std::vector<Vec2> gradient;  ///< exact for linear fields without the extrapolated ghosts
   };
+  struct Continued {
+    std::int32_t stencil;
+    Vec2 way = Vec2::Zero();       ///< from the particle to where the ghost's stress is that of the soil [m]
+    Mat2 turn = Mat2::Identity();  ///< from there to the ghost, through walls that mirror the stress
+    bool turned = false;
+  };
   OneSided one_sided(const ReferenceConfiguration& reference, std::int32_t particle,
-                     const std::vector<std::uint8_t>& stems_from_extrapolated) const;
+                     const std::vector<std::uint8_t>& from_extrapolated) const;
+  static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
+                                std::int32_t stencil);
   void sum_gradients(const std::vector<PlaneTensor>& piola);
-  Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t ghost,
+  Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t k,
                     const std::vector<PlaneTensor>& piola) const;
 
-  std::size_t extrapolated_ = 0;  ///< ghosts of bearing walls, which come first
+  std::vector<std::size_t> extrapolated_, mirrored_;  ///< ghosts of bearing walls, and the others
+  std::vector<Continued> continued_;                  ///< beside extrapolated_
   std::vector<OneSided> stencils_;
-  std::vector<std::int32_t> stencil_of_;        ///< of each extrapolated ghost
   std::vector<std::array<Mat2, 2>> gradients_;  ///< of P along x and y, of each stencil
 };
 

@@ -7,12 +7,15 @@
 namespace porosph {
 namespace {
 
-/// s, by default where something sets off motion that alternates: soils that meet, cut cells, disorder.
-double strength(const FormulationCase& formulation, bool cut, const ReferenceConfiguration& r,
-                const OwnSides& sides) {
-  constexpr double usual = 0.1;  // by the map cases/stability/disorder.toml
+/// s, by default where something sets off motion that alternates: soils that meet, cut cells, and more of it
+/// disorder and walls at corners other than upright ones with the soil between them.
+double strength(const FormulationCase& formulation, const Model& model, bool cut,
+                const ReferenceConfiguration& r, const OwnSides& sides) {
+  constexpr double usual = 0.1, more = 0.6;  // docs/theory.md says what they do
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
-  return r.closed() || !sides.empty() || cut ? usual : 0;
+  if (r.closed() || !model.visibility.everywhere())
+    return std::ranges::any_of(model.soils, &Soil::may_yield) ? usual : more;
+  return !sides.empty() || cut ? usual : 0;
 }
 
 }  // namespace
@@ -30,7 +33,7 @@ ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Mod
                                    bool cut, const ReferenceConfiguration& r, const OwnSides& sides)
     : place_(sides.place) {
   const Particles& p = model.particles;
-  const double s = strength(formulation, cut, r, sides);
+  const double s = strength(formulation, model, cut, r, sides);
   active_ = s > 0 && formulation.zero_energy_control > 0;
   // mu = kappa rho c_p h
   const double rate_per_modulus = s / (rho_c * model.smoothing_length);

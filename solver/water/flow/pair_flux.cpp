@@ -9,6 +9,7 @@
 #include "solver/space/parallel.hpp"
 #include "solver/sph/kernel/cubic_spline.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
+#include "solver/water/flow/outline_sight.hpp"
 
 namespace porosph {
 namespace {
@@ -61,14 +62,14 @@ class Builder {
   }
 
   void link() {
-    const Visibility visibility(soils_, outline_.stretches, p_, kernel_.support(), spacing_);
+    const OutlineSight sight(soils_, outline_.stretches, p_, kernel_.support(), spacing_);
     const NeighbourList all = find_neighbours(points_, particles(), (1 - 1e-9) * kernel_.support());
     const auto n = static_cast<std::int32_t>(particles());
     links_begin_ = {0};
     for (std::int32_t a = 0; a < n; ++a) {
       for (const std::int32_t b : all.of(a)) {
-        const bool seen = b < n ? visibility.sees(a, b, p_)
-                                : lies_on_mirror(a, b - n) || visibility.sees_ghost(a, b - n, ghosts_, p_);
+        const bool seen = b < n ? sight.sees(a, b, p_)
+                                : lies_on_mirror(a, b - n) || sight.sees_ghost(a, b - n, ghosts_, p_);
         const Vec2 x = points_[b] - points_[a];
         const double f = -cell_[b] * kernel_.slope(x.norm());
         if (seen && f > 0) links_.push_back({a, b, x, f});

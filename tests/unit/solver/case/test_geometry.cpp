@@ -132,12 +132,17 @@ TEST_CASE("a boundary that changes sides") {
         "box.toml:13:1: key 'boundary[0]': has soil on its left and, further along, on its right: split it");
 }
 
-TEST_CASE("boundaries meet at angles of 45 degrees or more, or in one line") {
-  const std::string flat = "[[0, 0], [4, 0], [4, 2], [3, 2]]", slope = "[[0, 0], [4, 0], [4, 2], [1, 2]]";
-  CHECK(errors_of(with(sand_outline, flat) + boundary("[0, 0]", "[3, 2]")) ==
-        "box.toml:20:1: key 'boundary[1]': meets boundary[0] at an angle of 33.69 degrees: must be 45 to 90, "
-        "or "
-        "one line");
+TEST_CASE("boundaries meet at any angle that leaves the soil 30 degrees") {
+  const std::string sharp = "[[0, 0], [4, 0], [4, 2]]", slope = "[[0, 0], [4, 0], [4, 2], [1, 2]]";
+  CHECK(errors_of(with(sand_outline, sharp) + boundary("[0, 0]", "[4, 2]")) ==
+        "box.toml:20:1: key 'boundary[1]': meets boundary[0] at an angle of 26.57 degrees: the soil between "
+        "them "
+        "must have 30 degrees or more");
+  // The same lines with the soil beyond them: 153 and 333 degrees.
+  const std::string flat = "[[0, 0], [4, 0], [4, 2], [-4, 2]]";
+  CHECK(errors_of(with(sand_outline, flat) + boundary("[0, 0]", "[-4, 2]")).empty());
+  const std::string spike = "[[0, 0], [4, 0], [4, 2], [-2, 2], [-2, -2], [4, -2]]";
+  CHECK(errors_of(with(sand_outline, spike) + boundary("[0, 0]", "[4, -2]")).empty());
   CHECK(errors_of(with(sand_outline, slope) + boundary("[0, 0]", "[1, 2]")).empty());
   CHECK(errors_of(with(sand_outline, slope) + boundary("[0.5, 1]", "[1, 2]")).empty());
   CHECK(errors_of(with("to = [4, 0]", "to = [2, 0]") + boundary("[2, 0]", "[4, 0]")).empty());

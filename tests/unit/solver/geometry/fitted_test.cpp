@@ -84,6 +84,22 @@ TEST_CASE("slivers join the neighbour below or beside") {
   CHECK(sites[1].area == Approx(1.1 * 1.2));
 }
 
+TEST_CASE("no site carries soil from both sides of a wall or slit thinner than a cell") {
+  const double left = GENERATE(1.9, 2.03, 2.11, 2.24), lean = GENERATE(0.0, 0.4, 1.5);
+  const double thickness = GENERATE(0.01, 0.05, 0.2);
+  const Point foot(left, 1), head(left + lean, 3), across(thickness, 0);
+  const Region region({{0, 0}, {4, 0}, {4, 3}, head + across, foot + across, foot, head, {0, 3}});
+  CAPTURE(left, lean, thickness);
+  for (const Arrangement arrangement : {Arrangement::fitted, Arrangement::surface, Arrangement::stretched}) {
+    const std::vector<Site> sites = place_particles(scene_of({region.rings()[0]}, 0.25, arrangement));
+    CHECK(total_area(sites) == Approx(region.area()).epsilon(1e-10));
+    for (const Site& site : sites) CHECK(region.contains(site.position));
+    if (arrangement != Arrangement::fitted) continue;
+    CHECK((centroid(sites) - region.centroid()).norm() < 1e-10 * region.size());
+    CHECK(std::ranges::min(sites, {}, &Site::area).area > 0.3 * 0.25 * 0.25);
+  }
+}
+
 TEST_CASE("soils that share a border are fitted to it from both sides") {
   const std::vector<Site> sites = place_particles(
       scene_of({{{0, 0}, {4, 0}, {4, 1.13}, {0, 2.37}}, {{0, 2.37}, {4, 1.13}, {4, 4}, {0, 4}}}, 0.25,
