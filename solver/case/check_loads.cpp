@@ -33,6 +33,15 @@ std::string place_fault(const Case& c, const LoadCase& load) {
         "lies on the outline along {:.4g} of its {:.4g} m only: it must end on one straight stretch", covered,
         length);
   for (std::size_t i = 0; i < c.boundaries.size(); ++i)
+    for (const Point& wall_end : {c.boundaries[i].from, c.boundaries[i].to})
+      for (const Point& end : {load.from, load.to})
+        if ((wall_end - end).norm() < 2 * c.smoothing_length())
+          return fmt::format(
+              "meets the end of boundary[{}] at ({}, {}): a wall beside a load must extend beyond the soil, "
+              "by {} m or more, "
+              "to hold the particles on the surface",
+              i, wall_end.x(), wall_end.y(), 2 * c.smoothing_length());
+  for (std::size_t i = 0; i < c.boundaries.size(); ++i)
     if (common_length(load.from, load.to, c.boundaries[i].from, c.boundaries[i].to, tolerance) > tolerance)
       return fmt::format("lies on boundary[{}]: it must be on a free surface", i);
   return "";

@@ -127,7 +127,8 @@ class Search {
 
   std::vector<double> first_factors() const {
     const double guess = std::clamp(options_.first_guess, options_.least, options_.most);
-    return wanted({0.97 * guess, 1.03 * guess});
+    const std::vector<double> around = wanted({0.97 * guess, 1.03 * guess});
+    return around.empty() ? next_factors() : around;  // the trial at 1 may have shown the guess to be wrong
   }
 
   /// As many as there are jobs, between the bracket's ends or beyond its open one; none when it is narrow.

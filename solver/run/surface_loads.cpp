@@ -52,14 +52,18 @@ Vec2 unit_normal(const Vec2& from, const Vec2& to) {
 
 /// The part of a particle's surface vector that belongs to a face with this normal: beside a corner the rest
 /// is that of the other face in reach.
-double area_on(const Vec2& surface_vector, const Vec2& normal, const Vec2& place,
+double area_on(const Vec2& surface_vector, const Vec2& normal, const Vec2& place, double away,
                const std::vector<OutlineEdge>& edges, double reach) {
   Vec2 other = Vec2::Zero();
   double nearest = reach;
   for (const OutlineEdge& edge : edges) {
     const Vec2 across = unit_normal(edge.a, edge.b);
-    if (std::abs(across.dot(normal)) > 1 - 1e-9) continue;
-    if (const double d = distance(place, place, edge.a, edge.b); d < nearest) nearest = d, other = across;
+    const double d = distance(place, place, edge.a, edge.b);
+    if (std::abs(across.dot(normal)) > 1 - 1e-9) {
+      if (d < away * (1 - 1e-9)) return 0;  // its surface is the opposite face
+      continue;
+    }
+    if (d < nearest) nearest = d, other = across;
   }
   if (other == Vec2::Zero()) return surface_vector.dot(normal);
   Mat2 faces;
@@ -88,7 +92,8 @@ std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model
   const std::vector<Vec2> vectors = surface_vectors(scene, model);
   const std::vector<OutlineEdge> edges = free_edges(scene);
   const Particles& p = model.particles;
-  const double reach = 2 * model.smoothing_length, spacing = model.spacing;
+  // L differs from that inside within 2 h of the surface, and their neighbours feel it.
+  const double reach = 4 * model.smoothing_length, spacing = model.spacing;
   std::vector<LoadedParticles> loads;
   for (const LoadCase& load : scene.loads) {
     LoadedParticles loaded{.load = std::make_shared<Traction>(load),
@@ -104,7 +109,8 @@ std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model
         continue;
       const double along = from_start.dot(way) / length, share = share_on(along, length, spacing);
       if (share == 0) continue;
-      const double area = share * area_on(vectors[i], loaded.normal, p.position[i], edges, reach);
+      const double area = share * area_on(vectors[i], loaded.normal, p.position[i],
+                                          std::abs(from_start.dot(loaded.normal)), edges, reach);
       loaded.particles.push_back(static_cast<std::int32_t>(i));
       loaded.places.push_back(load.from + std::clamp(along / length, 0.0, 1.0) * way);
       loaded.areas.push_back(area);

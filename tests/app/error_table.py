@@ -116,6 +116,7 @@ OF_THE_GROUND = [
     ("a boundary inside the soil", "from = [0, 0]\nto = [4, 0]", "from = [0, 1]\nto = [4, 1]"),
     ("water that touches no soil", "[time]", "[[water.stretches]]\nx_to = -1\nlevel = 1\n[time]"),
     ("a probe outside", "position = [2, 1]", "position = [2, 3]"),
+    ("a wall that ends at a load", "[time]", LOAD.replace("[1, 2]", "[0, 2]") + "[[boundary]]\nkind = \"roller\"\nfrom = [0, 0]\nto = [0, 2]\n[time]"),
     ("a load that touches nothing", "[time]", LOAD.replace(", 2]", ", 3]") + "[time]"),
     ("a load on a wall", "[time]", LOAD.replace(", 2]", ", 0]") + "[time]"),
     ("a load that reaches beyond the soil", "[time]", LOAD.replace("[3, 2]", "[5, 2]") + "[time]"),

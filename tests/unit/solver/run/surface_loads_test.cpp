@@ -23,6 +23,8 @@ LoadCase pressing(const Point& from, const Point& to, double pressure) {
 Case pressed_box(Arrangement arrangement, double pressure) {
   Case scene = box_of_soil(12, 8, 0.5);
   hold_as_column(scene);
+  for (BoundaryCase& b : scene.boundaries)
+    if (b.to.y() > 0) b.to.y() += 2;  // walls beside a load extend beyond the soil
   scene.particles.arrangement = arrangement;
   scene.particles.smoothing_ratio = arrangement == Arrangement::surface ? 1 : 1.2;
   scene.formulation = default_formulation(Motion::consistent);
