@@ -68,14 +68,54 @@ class Builder {
     links_begin_ = {0};
     for (std::int32_t a = 0; a < n; ++a) {
       for (const std::int32_t b : all.of(a)) {
-        const bool seen = b < n ? sight.sees(a, b, p_)
-                                : lies_on_mirror(a, b - n) || sight.sees_ghost(a, b - n, ghosts_, p_);
+        const bool seen =
+            b < n ? first_stretch_between(points_[a], points_[b]) < 0 : sees_ghost(sight, a, b - n);
         const Vec2 x = points_[b] - points_[a];
         const double f = -cell_[b] * kernel_.slope(x.norm());
         if (seen && f > 0) links_.push_back({a, b, x, f});
       }
       links_begin_.push_back(std::ssize(links_));
     }
+  }
+
+  /// The stretch that a line from one point to another meets first, -1 where it stays in the soil. Water
+  /// does not pass around the outside of a corner.
+  int first_stretch_between(const Vec2& from, const Vec2& to) const {
+    const double slack = on_outline * spacing_;
+    int first = -1;
+    double nearest = 2;
+    for (std::size_t s = 0; s < outline_.stretches.size(); ++s) {
+      const Wall& wall = outline_.stretches[s];
+      const double before = wall.distance(from), after = wall.distance(to);
+      if (!(before > slack && after < -slack) && !(before < -slack && after > slack)) continue;
+      const double t = before / (before - after);
+      const double at = along(static_cast<int>(s), from + t * (to - from));
+      if (at < -slack || at > (wall.to - wall.from).norm() + slack || t >= nearest) continue;
+      nearest = t, first = static_cast<int>(s);
+    }
+    return first;
+  }
+
+  /// Two stretches may lie in one line, with a notch between them: what is beside the one has no image in the
+  /// other.
+  bool is_beside_its_stretch(std::size_t ghost) const {
+    if (ghosts_.stems_from_ghost(ghost)) return is_beside_its_stretch(ghosts_.parent(ghost) - particles());
+    const int stretch = ghosts_.image(ghost).wall;
+    const Wall& wall = outline_.stretches[stretch];
+    const double at = along(stretch, points_[ghosts_.parent(ghost)]), slack = on_outline * spacing_;
+    return at > -slack && at < (wall.to - wall.from).norm() + slack;
+  }
+
+  /// Images of images lie in corners, where the line to them may pass either stretch.
+  bool sees_ghost(const OutlineSight& sight, std::int32_t a, std::size_t ghost) const {
+    if (!is_beside_its_stretch(ghost)) return false;
+    if (lies_on_mirror(a, ghost)) return true;
+    if (ghosts_.stems_from_ghost(ghost)) return sight.sees_ghost(a, ghost, ghosts_, p_);
+    return first_stretch_between(points_[a], points_[particles() + ghost]) == ghosts_.image(ghost).wall;
+  }
+  static Vec2 crossing(const Wall& wall, const Vec2& from, const Vec2& to) {
+    const double before = wall.distance(from), behind = -wall.distance(to);
+    return from + before / (before + behind) * (to - from);
   }
 
   /// From a particle on the outline, all that is mirrored in that stretch is in sight.
@@ -319,10 +359,9 @@ class Builder {
     for (int i = pair.images - 1; i >= 0; --i) {
       const int stretch = ghosts_.image(ghost).wall;
       const Wall& wall = outline_.stretches[stretch];
-      const double before = wall.distance(from), behind = -wall.distance(to);
-      const Vec2 crossing = from + before / (before + behind) * (to - from);
-      pair.patch[i] = outline_.patch_at(stretch, along(stretch, crossing));
-      pair.crossing[i] = crossing.y();
+      const Vec2 through = crossing(wall, from, to);
+      pair.patch[i] = outline_.patch_at(stretch, along(stretch, through));
+      pair.crossing[i] = through.y();
       const std::size_t parent = ghosts_.parent(ghost);
       pair.foot[i] = ((points_[parent] + points_[particles() + ghost]) / 2).y();
       if (i > 0) ghost = parent - particles();
