@@ -14,7 +14,7 @@ std::optional<Frame> exact_state(const Case& scene, const std::vector<Point>& st
   const FiniteStrainColumn exact = scene.reference == Reference::conventional_column
                                        ? conventional_column(column)
                                        : FiniteStrainColumn(column);
-  const Water water(at_rest_from(scene.water, scene.time.end));
+  const StandingWater water(at_rest_from(scene.water, scene.time.end));
   std::vector<double> stress, displacement, pressure;
   Frame frame;
   for (const Point& start : starts) {
