@@ -82,8 +82,9 @@ struct DruckerPrager : Elasticity {
   /// and by the dilation in the mean, then to the apex where that is passed. What opens there has to close
   /// before mean stress returns.
   template <class Space>
-  Symmetric<Space> step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient, double dt,
-                        History& q) const {
+  [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
+                                               const GradientIn<Space>& velocity_gradient, double dt,
+                                               History& q) const {
     const double shut = closing(q.opening, velocity_gradient.trace() * dt);
     const Symmetric<Space> trial =
         elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);

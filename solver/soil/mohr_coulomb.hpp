@@ -170,8 +170,9 @@ struct MohrCoulomb : Elasticity {
   double sin_friction(const History& q) const { return surface(q).sin_phi; }
 
   template <class Space>
-  Symmetric<Space> step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient, double dt,
-                        History& q) const {
+  [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
+                                               const GradientIn<Space>& velocity_gradient, double dt,
+                                               History& q) const {
     const double shut = closing(q.opening, velocity_gradient.trace() * dt);
     const Symmetric<Space> trial =
         elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);

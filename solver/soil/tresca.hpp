@@ -42,8 +42,9 @@ struct Tresca : Elasticity {
   double sin_friction(const History&) const { return 0; }
 
   template <class Space>
-  Symmetric<Space> step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient, double dt,
-                        History& q) const {
+  [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
+                                               const GradientIn<Space>& velocity_gradient, double dt,
+                                               History& q) const {
     const Symmetric<Space> trial = elastic_step(old, velocity_gradient, dt);
     const MohrCoulombSurface now{0, undrained_strength(q), 0, tension};
     const ReturnedInPlane r = returned_in_plane(trial.xx, trial.yy, trial.zz, trial.xy, now, *this);

@@ -75,6 +75,12 @@ IN_THE_CASE = [
     ("a spacing that no computer can hold", "spacing = 0.5", "spacing = 1e-9"),
     ("an end that no run reaches", "end = 0.1", "end = 1e9\ncourant = 1e-6"),
     ("finite elements for what is not linear", "[[boundary]]", "no_tension = true\n[check]\nfinite_elements = true\n[[boundary]]"),
+    ("a law without its strength", "[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 5e3\n[[boundary]]'),
+    ("strength that the law has not", "[[boundary]]", 'cohesion = 5e3\n[[boundary]]'),
+    ("more dilation than friction", "[[boundary]]",
+     'law = "mohr_coulomb"\ncohesion = 5e3\nfriction_angle = 20\ndilation_angle = 25\n[[boundary]]'),
+    ("finite elements for soil that yields", "[[boundary]]",
+     'law = "tresca"\nundrained_strength = 20e3\n[check]\nfinite_elements = true\n[[boundary]]'),
     ("more frames than anyone wants", "[time]", "[output]\ninterval = 1e-9\n[time]"),
 ]
 WEIGHT = "unit_weight_saturated = 20e3\n"
