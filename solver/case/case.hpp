@@ -72,7 +72,7 @@ struct SoilCase {
   bool no_tension = false;  ///< no effective stress where its mean would be tensile; its shear strength is
                             ///< unlimited where the mean is compressive
   Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
-  RetentionCase retention;
+  RetentionCase retention = {};
   Point velocity = Point::Zero();  ///< initial velocity [m/s]
   double angular_velocity = 0;     ///< initial, counter-clockwise about the polygon's middle [rad/s]
   double bending_velocity = 0;     ///< initial, upwards at the tip of a plate clamped at its left end, in the
