@@ -25,8 +25,7 @@ inline Case box_of_soil(int columns, int rows, double spacing = 0.5) {
                          .youngs_modulus = 15e6,
                          .poissons_ratio = 0.33,
                          .unit_weight_saturated = 20e3,
-                         .unit_weight_unsaturated = 18.6e3,
-                         .retention = {}});
+                         .unit_weight_unsaturated = 18.6e3});
   scene.time.end = 1;
   return scene;
 }
