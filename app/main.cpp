@@ -32,6 +32,7 @@ const std::vector<Command> commands = {
     {"report", "make a page of pictures and tables of runs", report_command},
     {"bench", "measure speed, and run time against error", bench_command},
 #endif
+    {"schema", "print the JSON schema of cases, for editors", schema_command},
     {"completion", "print what a shell needs to complete command lines", completion_command},
     {"man", "print the manual page", man_command},
 };

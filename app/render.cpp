@@ -64,7 +64,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
           "  porosph render results/foundation --field TotalStress:YY\n"
           "  porosph render results/foundation/particles.pvd --field Displacement --deform 20 --out u.png\n"
           "  porosph render results/foundation --field EffectiveStress:YY --time all --range -110,0\n"
-          "  porosph render results/foundation --field MobilisedFriction --style bands --crosses --out "
+          "  porosph render results/foundation --field StressObliquity --style bands --crosses --out "
           "friction.svg\n",
           values))
     return std::nullopt;

@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
 #include <iostream>
+#include <thread>
 
 #include "app/command.hpp"
 #include "app/left_out.hpp"
@@ -18,7 +22,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> runs, labels, left_out, thresholds;
-  std::string fem, out;
+  std::string fem, out, summary;
+  bool single_file = false;
 };
 
 std::optional<Options> read_options(const Arguments& arguments) {
@@ -33,6 +38,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
                "also against the finite-element reference in this folder")(
       "leave-out", po::value(&o.left_out)->value_name("X,Y,RADIUS"),
       "place [m] that does not count against finite elements, such as a toe; may be given again")(
+      "single-file", po::bool_switch(&o.single_file), "put the pictures into index.html")(
+      "summary", po::value(&o.summary)->value_name("FILE.md"),
+      "also write a summary in Markdown, as pages of continuous integration show it")(
       "fail-if", po::value(&o.thresholds)->value_name("PATH>NUMBER"),
       "exit with status 1 if this holds for a number of a run's summary.json (fem.FIELD.relative_l2 with "
       "--fem); "
@@ -44,11 +52,33 @@ std::optional<Options> read_options(const Arguments& arguments) {
   po::variables_map values;
   if (!parse(arguments, options, positional, "report RUN... [STUDY...] [options]",
              "  porosph report results/foundation\n"
+             "  porosph report results/foundation --single-file --summary summary.md\n"
              "  porosph report results/a results/b --out report --fail-if "
              "'errors.EffectiveStress_YY.relative_l2>0.02'\n",
              values))
     return std::nullopt;
   return o;
+}
+
+/// The processor's name, as Linux tells it.
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+  return "a processor that has no name";
+}
+
+/// SOURCE_DATE_EPOCH, where it is set, is the time, so that pages can be made again byte for byte.
+std::string made_now() {
+  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
+  const std::time_t now =
+      epoch != nullptr ? static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)) : std::time(nullptr);
+  char text[32] = "";
+  std::tm parts{};
+  if (gmtime_r(&now, &parts) != nullptr) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return fmt::format("Made {} by Porosph {} on {}, {} threads.", text, POROSPH_VERSION, processor(),
+                     std::thread::hardware_concurrency());
 }
 
 }  // namespace
@@ -58,6 +88,9 @@ int report_command(const Arguments& arguments) {
   if (!o) return Exit::done;
   ReportInput input;
   input.command = command_line("report", arguments);
+  input.made = made_now();
+  input.single_file = o->single_file;
+  input.summary = o->summary;
   input.left_out = read_left_out(o->left_out);
   for (const std::string& text : o->thresholds) input.thresholds.push_back(parse_threshold(text));
   for (const std::string& folder : o->runs)

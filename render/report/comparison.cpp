@@ -186,6 +186,35 @@ ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Fr
   return panel;
 }
 
+ContourFigure difference_maps(const std::vector<const FinishedRun*>& runs,
+                              const std::vector<const Frame*>& frames, const std::vector<std::string>& labels,
+                              const std::optional<FemReference>& fem, const std::vector<LeftOut>& left_out,
+                              const FieldSelection& field) {
+  double largest = 0;
+  for (const Frame* frame : frames) largest = std::max(largest, largest_of(values_of(*frame, field)));
+  const ShownUnit unit = shown_unit(field.name, largest);
+  const ComparisonChoice choice{.pictures = {}, .range = {}, .difference_range = {}, .left_out = left_out};
+  const Side first{*runs[0], *frames[0], labels[0]};
+  ContourFigure figure;
+  figure.title = "Differences: " + name_in_sentence(field);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    const FramePair pair = last_frames(*runs[i], *runs[0]);
+    if (!is_fair(*runs[i], *runs[0], pair)) continue;
+    const Side side{*runs[i], *frames[i], labels[i]};
+    const MaterialPoints points = common_points(*runs[i], *frames[i], *runs[0], *frames[0]);
+    figure.panels.push_back(run_difference({side, first, pair, points, fem, choice}, field, unit.factor));
+  }
+  if (fem && drawable_with_fem(field))
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Side side{*runs[i], *frames[i], labels[i]};
+      const MaterialPoints none{
+          {}, {}, true, Sampler(std::vector<std::size_t>{}), Sampler(std::vector<std::size_t>{})};
+      figure.panels.push_back(fem_difference({side, side, {}, none, fem, choice}, side, field, unit.factor));
+    }
+  scale_differences(figure.panels, shown_label(field, unit), std::nullopt);
+  return figure;
+}
+
 Comparison compare_runs(const FinishedRun& a, std::size_t index_a, const FinishedRun& b, std::size_t index_b,
                         const std::optional<FemReference>& fem, const ComparisonChoice& choice,
                         const fs::path& folder) {

@@ -39,6 +39,13 @@ ContourPanel fem_panel(const FemReference& fem, const FinishedRun& run, const Fr
                        const FieldSelection& field, double factor, double deformation = 1,
                        FieldStyle style = FieldStyle::particles);
 
+/// One map for each difference in one field: of every other run from the first, where their last frames may
+/// be compared, and of every run from finite elements. Empty where there is none.
+ContourFigure difference_maps(const std::vector<const FinishedRun*>& runs,
+                              const std::vector<const Frame*>& frames, const std::vector<std::string>& labels,
+                              const std::optional<FemReference>& fem, const std::vector<LeftOut>& left_out,
+                              const FieldSelection& field);
+
 /// comparison.csv and comparison.json in `folder`. Numbers that are not finite: empty, and null with a
 /// reason.
 void write_norms(const Comparison& comparison, const std::string& label_a, const std::string& label_b,

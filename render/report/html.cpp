@@ -2,8 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string_view>
+
 #include "render/report/resources.hpp"
 #include "solver/printable.hpp"
+#include "vtk_io/run_folder/file_errors.hpp"
 
 namespace porosph::html {
 namespace {
@@ -24,6 +33,38 @@ std::string row(const std::vector<std::string>& cells, const char* first, const 
     text += fmt::format("<{0}>{2}</{1}>", i == 0 ? first : other,
                         i == 0 ? "th" : std::string(other).substr(0, 2), with_subscripts(escaped(cells[i])));
   return text + "</tr>\n";
+}
+
+/// Small letters and digits, with '-' in place of all others.
+std::string anchor(const std::string& heading) {
+  std::string name;
+  for (const char c : heading) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    const bool is_capital = c >= 'A' && c <= 'Z';
+    name += is_plain ? c : is_capital ? static_cast<char>(c - 'A' + 'a') : '-';
+  }
+  return name;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * (bytes.size() + 2) / 3);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+      group = group << 8 | (k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u);
+    for (int k = 3; k >= 0; --k) text += digits[group >> (6 * k) & 63];
+  }
+  if (const std::size_t rest = bytes.size() % 3; rest > 0)
+    text.replace(text.size() - 3 + rest, 3 - rest, 3 - rest, '=');
+  return text;
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ReadError(file, std::strerror(errno));
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
@@ -61,8 +102,9 @@ std::string table(const std::vector<std::vector<std::string>>& rows, bool number
 }
 
 std::string figure(const std::string& file, const std::string& description, const std::string& caption) {
-  return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     escaped(file), escaped(description), escaped(caption));
+  return fmt::format(
+      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{2}</figcaption></figure>\n",
+      escaped(file), escaped(description), escaped(caption));
 }
 
 std::string paragraph(const std::string& text, const std::string& style) {
@@ -70,7 +112,32 @@ std::string paragraph(const std::string& text, const std::string& style) {
 }
 
 std::string section(const std::string& heading, const std::string& content) {
-  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escaped(heading), content);
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", anchor(heading), escaped(heading),
+                     content);
+}
+
+std::string contents(const std::string& body) {
+  static const std::regex head("<section id=\"([^\"]*)\">\n<h2>(.*)</h2>");
+  std::string text = "<nav aria-label=\"Contents\"><ul>\n";
+  for (std::sregex_iterator i(body.begin(), body.end(), head), end; i != end; ++i)
+    text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", (*i)[1].str(), (*i)[2].str());
+  return text + "</ul></nav>\n";
+}
+
+std::vector<std::string> pictures_of(const std::string& page) {
+  static const std::regex source("<img src=\"([^\"]*)\"");
+  std::vector<std::string> files;
+  for (std::sregex_iterator i(page.begin(), page.end(), source), end; i != end; ++i) files.push_back((*i)[1]);
+  return files;
+}
+
+std::string with_pictures(std::string page, const std::filesystem::path& folder) {
+  for (const std::string& file : pictures_of(page)) {
+    const std::string link = fmt::format("<a href=\"{0}\"><img src=\"{0}\"", file);
+    const std::string data = "<img src=\"data:image/png;base64," + base64(read_file(folder / file)) + "\"";
+    if (const auto at = page.find(link); at != std::string::npos) page.replace(at, link.size(), "<a>" + data);
+  }
+  return page;
 }
 
 std::string page(const std::string& title, const std::string& body) {

@@ -1,6 +1,7 @@
 // The pieces of a static page: escaped text, tables, pictures.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,24 @@ std::string escaped(const std::string& text);
 /// right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
-/// `file` lies beside the page. `description` is read out where the picture is not seen, `caption` stands
-/// below it.
+/// A link to the picture in full size around it. `file` lies beside the page. `description` is read out where
+/// the picture is not seen, `caption` stands below it.
 std::string figure(const std::string& file, const std::string& description, const std::string& caption);
 
 /// `style`: a class of the page's style sheet; empty for plain text.
 std::string paragraph(const std::string& text, const std::string& style = "");
 
+/// With an anchor made of the heading's letters.
 std::string section(const std::string& heading, const std::string& content);
+
+/// Links to the sections of a body, in their order.
+std::string contents(const std::string& body);
+
+/// The page with its pictures in it: those that lie in `folder` and that it refers to. Throws ReadError.
+std::string with_pictures(std::string page, const std::filesystem::path& folder);
+
+/// Names of the files that the page shows as pictures.
+std::vector<std::string> pictures_of(const std::string& page);
 
 /// A whole page, light or dark as the reader's system is, fit to be printed, without scripts or outside
 /// files.

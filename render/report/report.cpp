@@ -271,6 +271,47 @@ std::string how_to_reproduce(const ReportInput& input, const std::vector<LoadedR
   return text;
 }
 
+void write_page(const std::string& page, bool single_file, const fs::path& folder) {
+  write_file(folder / "index.html", single_file ? html::with_pictures(page, folder) : page);
+  if (!single_file) return;
+  for (const std::string& file : html::pictures_of(page)) {
+    std::error_code none;
+    fs::remove(folder / file, none);
+  }
+}
+
+/// A table as GitHub and GitLab show it.
+std::string markdown(const Rows& rows) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (std::string cell : cells) {
+      for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2)
+        cell.replace(at, 1, "\\|");
+      text += " " + html::escaped(cell) + " |";
+    }
+    return text + "\n";
+  };
+  std::string text = line(rows.front()) + "|";
+  for (std::size_t i = 0; i < rows.front().size(); ++i) text += " --- |";
+  text += "\n";
+  for (std::size_t i = 1; i < rows.size(); ++i) text += line(rows[i]);
+  return text + "\n";
+}
+
+std::string markdown_summary(const ReportInput& input, const std::vector<LoadedRun>& runs,
+                             const std::vector<std::vector<FieldNorms>>& fem, const Checked& checked,
+                             const std::vector<std::string>& warnings) {
+  std::string text = "## " + html::escaped(runs.front().run.scene->title) + "\n\n";
+  for (const std::string& w : warnings) text += "- **" + html::escaped(w) + "**\n";
+  if (!warnings.empty()) text += "\n";
+  text += markdown(run_table(runs));
+  if (!input.thresholds.empty()) text += "### Thresholds\n\n" + markdown(checked.rows);
+  if (const Rows rows = error_table(runs); rows.size() > 1)
+    text += "### Errors against the exact solution\n\n" + markdown(rows);
+  if (input.fem) text += "### Differences from finite elements\n\n" + markdown(fem_table(runs, fem));
+  return text + html::escaped(input.made) + "\n";
+}
+
 }  // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
@@ -293,16 +334,18 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   make_folder(folder);
 
   const Case& scene = *runs.front().run.scene;
-  std::string body =
+  const std::string head =
       "<h1>" + html::escaped(scene.title) + "</h1>\n<p class=\"lead\">" +
       html::escaped(fmt::format("{} of {} particles: {}", runs.size() == 1 ? "A run" : "Runs",
                                 runs.front().run.summary->particles, fmt::join(labels, ", "))) +
-      "</p>\n";
+      "</p>\n" + (input.made.empty() ? "" : html::paragraph(input.made));
+  std::string body;
   std::vector<std::string> warnings = checked.failed;
   for (std::string& w : warnings) w = "Threshold failed: " + w;
   for (const LoadedRun& r : runs)
     for (std::string& w : warnings_of(r)) warnings.push_back(std::move(w));
-  if (!warnings.empty()) body += "<div class=\"warnings\" role=\"note\">" + list(warnings) + "</div>\n";
+  const std::string notes =
+      warnings.empty() ? "" : "<div class=\"warnings\" role=\"note\">" + list(warnings) + "</div>\n";
   body += html::section("Runs", html::table(run_table(runs)));
   body += html::section("The case", pictures_of({draw_case(runs.front(), folder)}));
 
@@ -311,6 +354,9 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
        {FieldSelection{"TotalStress", "YY"}, FieldSelection{"EffectiveStress", "YY"},
         FieldSelection{"Displacement", "Y"}})
     if (all_have(runs, field)) contours.push_back(draw_contours(runs, input.fem, field, folder));
+  if (all_have(runs, {"EffectiveStress", "YY"}))
+    if (auto picture = draw_differences(runs, input.fem, input.left_out, {"EffectiveStress", "YY"}, folder))
+      contours.push_back(std::move(*picture));
   body += html::section("Stress and displacement", pictures_of(contours));
   if (all_have(runs, {"EffectiveStress", "YY"}))
     if (auto picture = draw_sections(runs, input.fem, folder))
@@ -354,12 +400,14 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   for (std::size_t i = 0; i < input.studies.size(); ++i)
     body += study_section(input.studies[i], folder, fmt::format("study_{}_", i + 1));
   body += html::section("How to reproduce", how_to_reproduce(input, runs));
-  write_file(folder / "index.html", html::page(scene.title, body));
+  write_page(html::page(scene.title, head + notes + html::contents(body) + body), input.single_file, folder);
 
   Json json = {{"runs", Json::object()}, {"thresholds", checked.json}, {"warnings", warnings}};
   for (std::size_t i = 0; i < runs.size(); ++i) json["runs"][runs[i].label] = summaries[i];
   for (const fs::path& study : input.studies) json["studies"].push_back(to_json(read_study(study)));
   write_file(folder / "report.json", json.dump(2) + "\n");
+  if (!input.summary.empty())
+    write_file(input.summary, markdown_summary(input, runs, fem, checked, warnings));
   return checked.failed;
 }
 

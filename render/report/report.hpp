@@ -19,6 +19,9 @@ struct ReportInput {
   std::vector<Threshold> thresholds;           ///< each is checked for each run
   std::vector<std::filesystem::path> studies;  ///< folders of studies, each shown as a section
   std::string command;                         ///< the command line that makes this report
+  std::string made;                            ///< when, by which program, on which machine
+  bool single_file = false;                    ///< the pictures go into the page
+  std::filesystem::path summary;               ///< a file for a summary in Markdown; empty: none
 };
 
 /// Writes index.html, its PNGs and report.json into `folder`; pictures are the same for the same runs.

@@ -140,6 +140,29 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
                       runs.size() == 1 ? "the run" : "each run")};
 }
 
+std::optional<ReportPicture> draw_differences(const std::vector<LoadedRun>& runs,
+                                              const std::optional<FemReference>& fem,
+                                              const std::vector<LeftOut>& left_out,
+                                              const FieldSelection& field, const fs::path& folder) {
+  std::vector<const FinishedRun*> finished;
+  std::vector<const Frame*> frames;
+  std::vector<std::string> labels;
+  for (const LoadedRun& r : runs) {
+    finished.push_back(&r.run);
+    frames.push_back(&r.last);
+    labels.push_back(r.label);
+  }
+  const ContourFigure figure = difference_maps(finished, frames, labels, fem, left_out, field);
+  if (figure.panels.empty()) return std::nullopt;
+  const std::string file = "differences_" + file_name(field.text()) + ".png";
+  save_contours(figure, folder / file);
+  return ReportPicture{
+      file, "Maps of differences in " + name_in_sentence(field),
+      fmt::format("Differences in {}, each with a range of colours of its own: relative L2 norm, and the "
+                  "largest difference with its place.",
+                  name_in_sentence(field))};
+}
+
 std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs,
                                             const std::vector<std::string>& labels, const fs::path& folder) {
   const std::vector<Chart> charts = stress_histories(runs, labels);

@@ -27,6 +27,13 @@ ReportPicture draw_case(const LoadedRun& run, const std::filesystem::path& folde
 ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optional<FemReference>& fem,
                             const FieldSelection& field, const std::filesystem::path& folder);
 
+/// Maps of difference_maps, with norms; none where nothing can be compared.
+std::optional<ReportPicture> draw_differences(const std::vector<LoadedRun>& runs,
+                                              const std::optional<FemReference>& fem,
+                                              const std::vector<LeftOut>& left_out,
+                                              const FieldSelection& field,
+                                              const std::filesystem::path& folder);
+
 /// Effective vertical stress over time at each probe, with theory; none without histories.
 std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs,
                                             const std::vector<std::string>& labels,

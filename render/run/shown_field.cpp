@@ -67,8 +67,11 @@ std::string file_name(const std::string& text) {
 ShownUnit shown_unit(const std::string& field, double largest) {
   if (field == "Displacement") return largest < 0.2 ? ShownUnit{"mm", 1e3} : ShownUnit{"m", 1};
   if (field.ends_with("Strain")) return {"%", 100};
-  static const std::map<std::string, ShownUnit> units = {
-      {"Pa", {"kPa", 1e-3}}, {"-", {"", 1}}, {"kg/m3", {"kg/m³", 1}}, {"deg", {"°", 1}}};
+  static const std::map<std::string, ShownUnit> units = {{"Pa", {"kPa", 1e-3}},
+                                                         {"-", {"", 1}},
+                                                         {"kg/m3", {"kg/m³", 1}},
+                                                         {"deg", {"°", 1}},
+                                                         {"degrees", {"°", 1}}};
   const std::string unit = unit_of(field);
   const auto found = units.find(unit);
   return found == units.end() ? ShownUnit{unit, 1} : found->second;

@@ -29,16 +29,15 @@ constexpr Field mean_pressure{"MeanPressure", "Pa", "p'", "mean effective pressu
 constexpr Field maximum_shear_stress{"MaximumShearStress", "Pa", "τ_max", "maximum shear stress",
                                      "(sigma'_1 - sigma'_3) / 2"};
 constexpr Field stress_ratio{"StressRatio", "-", "q / p'", "stress ratio", "q / p'; not a number in tension"};
-constexpr Field mobilised_friction{"MobilisedFriction", "deg", "φ_mob", "mobilised friction angle",
-                                   "asin((sigma'_1 - sigma'_3) / -(sigma'_1 + sigma'_3)); not a number in "
-                                   "tension"};
+constexpr Field stress_obliquity{"StressObliquity", "deg", "θ_max", "largest obliquity of stress",
+                                 "asin((sigma'_1 - sigma'_3) / -(sigma'_1 + sigma'_3)); not a number in "
+                                 "tension"};
 constexpr Field volumetric_strain{"VolumetricStrain", "-", "ε_v", "volumetric strain",
                                   "change of volume since t = 0, positive in expansion"};
 constexpr Field shear_strain{"ShearStrain", "-", "γ_max", "maximum shear strain",
                              "difference of the principal strains in the plane"};
 constexpr Field pore_pressure_ratio{"PorePressureRatio", "-", "r_u", "pore pressure ratio",
-                                    "r_u = p_w / sigma_yy, of total stress; not a number without pressure "
-                                    "from above"};
+                                    "r_u = p_w / sigma_yy, of total stress"};
 constexpr Field head{"Head", "m", "h", "hydraulic head",
                      "y - p_w / gamma_w in wet soil, of a case with water"};
 
@@ -104,7 +103,7 @@ double stress_ratio_of(const Stress& s) {
   return pressure > 0 ? von_mises_stress(s) / pressure : no_number;
 }
 
-double mobilised_friction_of(const Stress& s) {
+double stress_obliquity_of(const Stress& s) {
   const auto principal = principal_stresses(s);
   const double difference = principal[0] - principal[2], sum = -(principal[0] + principal[2]);
   return sum > 0 && difference <= sum ? std::asin(difference / sum) * 180 / M_PI : no_number;
@@ -141,7 +140,7 @@ Doubles of_strain(const Frame& frame, Value value) {
 Doubles pore_pressure_ratio_of(const Frame& frame) {
   Doubles out = values_of(frame, {"PorePressure", ""});
   const auto total = tensors_of<Stress>(frame, "TotalStress");
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = total[i].yy < 0 ? out[i] / total[i].yy : no_number;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = total[i].yy < 0 ? out[i] / total[i].yy : 0;
   return out;
 }
 
@@ -190,9 +189,9 @@ const std::vector<Derivation>& derivations() {
       {derived::stress_ratio.name,
        {{"EffectiveStress"}},
        [](const Frame& f) { return of_stress(f, stress_ratio_of); }},
-      {derived::mobilised_friction.name,
+      {derived::stress_obliquity.name,
        {{"EffectiveStress"}},
-       [](const Frame& f) { return of_stress(f, mobilised_friction_of); }},
+       [](const Frame& f) { return of_stress(f, stress_obliquity_of); }},
       {derived::volumetric_strain.name,
        {{"Strain"}, deformation},
        [](const Frame& f) { return of_strain(f, volumetric_strain_of); }},
@@ -223,7 +222,7 @@ bool has_sources(const Frame& frame, const Derivation& d) {
 const std::vector<Field>& derived_field_table() {
   static const std::vector<Field> table = [] {
     std::vector<Field> all = {derived::mean_pressure,       derived::maximum_shear_stress,
-                              derived::stress_ratio,        derived::mobilised_friction,
+                              derived::stress_ratio,        derived::stress_obliquity,
                               derived::volumetric_strain,   derived::shear_strain,
                               derived::pore_pressure_ratio, derived::head};
     std::erase_if(all, [](const Field& f) { return find_field(f.name) != nullptr; });

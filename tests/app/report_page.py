@@ -53,7 +53,7 @@ addEventListener('load', () => {
   const problems = Array.from(document.images).filter(i => !(i.complete && i.naturalWidth > 0))
     .map(i => 'picture ' + i.getAttribute('src') + ' does not load');
   for (const e of document.querySelectorAll('body *'))
-    if (e.getBoundingClientRect().right > wide + 1 && getComputedStyle(e.parentElement).overflowX === 'visible')
+    if (e.getBoundingClientRect().right > wide + 1 && !e.parentElement.closest('.scroll, pre'))  // these scroll
       problems.push(e.tagName + ' overflows: ' + e.textContent.slice(0, 40));
   if (document.documentElement.scrollWidth > wide) problems.push('the page is wider than the window');
   const found = JSON.stringify({pictures: document.images.length, problems: problems});
@@ -85,7 +85,7 @@ def main():
         subprocess.run([porosph, "run", "case.toml", "--out", "run", "--quiet"], cwd=folder, check=True)
         subprocess.run([porosph, "report", "run", "--out", "report"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
         problems = []
-        for width in (1280, 700):
+        for width in (1400, 700, 400):
             found = look_at(folder / "report" / "index.html", width)
             problems += [f"{width} pixels wide: {problem}" for problem in found["problems"]]
         if found["pictures"] < 4:

@@ -82,7 +82,7 @@ TEST_CASE("pictures are the same for the same input") {
     CAPTURE(entry.path().filename());
     CHECK(text_of(entry.path()) == text_of(place.folder() / "report_2" / entry.path().filename()));
   }
-  CHECK(pictures == 8);  // case, three fields, histories, two developments
+  CHECK(pictures == 9);  // case, three fields, differences, sections, histories, two developments
 }
 
 TEST_CASE("compare finds a run equal to itself, and the known distance of others") {
@@ -157,7 +157,30 @@ TEST_CASE("the report is a page of escaped text whose pictures are all there") {
     CAPTURE((*i)[1].str());
     CHECK(is_png(place.folder() / "page" / (*i)[1].str()));
   }
-  CHECK(images == 9);
+  CHECK(images == 10);
+}
+
+TEST_CASE("a report has contents, and may be a single file with a summary beside it") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("report consistent proposed --fem fem --out linked").status == 0);
+  const std::string linked = text_of(place.folder() / "linked/index.html");
+  CHECK_THAT(linked, Contains("<li><a href=\"#stress-with-height\">Stress with height</a></li>") &&
+                         Contains("<section id=\"stress-with-height\">") &&
+                         Contains("<a href=\"sections.png\"><img src=\"sections.png\"") &&
+                         Contains("by Porosph "));
+  REQUIRE(
+      place.shell("SOURCE_DATE_EPOCH=0 '" POROSPH_PROGRAM
+                  "' report consistent proposed --fem fem --out single --single-file --summary summary.md "
+                  "--fail-if 'time>1e9'") == 0);
+  const std::string page = text_of(place.folder() / "single/index.html");
+  CHECK_THAT(page, Contains("Made 1970-01-01 00:00 UTC by Porosph") && !Contains(".png\""));
+  const std::regex image("<img src=\"data:image/png;base64,iVBORw0KGgo");
+  CHECK(std::distance(std::sregex_iterator(page.begin(), page.end(), image), {}) == 10);
+  for (const auto& entry : fs::directory_iterator(place.folder() / "single"))
+    CHECK(entry.path().extension() != ".png");
+  const std::string summary = text_of(place.folder() / "summary.md");
+  CHECK_THAT(summary, Contains("## Small &lt;column&gt;") && Contains("| Run | consistent | proposed |") &&
+                          Contains("### Thresholds") && Contains("### Differences from finite elements"));
 }
 
 TEST_CASE("the report shows studies as sections") {

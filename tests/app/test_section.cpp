@@ -76,7 +76,7 @@ TEST_CASE("vertical stress on sections of a foundation is that of theory, up to 
     }
   }
   const Outcome several = place.porosph(
-      "section run --level 0.1 --time 0.1 --time last --field MobilisedFriction --field Head --out "
+      "section run --level 0.1 --time 0.1 --time last --field StressObliquity --field Head --out "
       "level.png");
   CHECK(several.status == 0);
   CHECK_THAT(several.out, Contains("run, t = ") && Contains("total stress:"));
