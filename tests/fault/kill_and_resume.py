@@ -69,7 +69,7 @@ VARIANTS = {
                      "stop.on_separation=false"],
     "adaptive": ["loading.damping=adaptive", "time.courant=0.1"],
     "tide": [],
-    "disordered": ["particles.arrangement=disordered", "particles.disorder=0.3"],
+    "disordered": ["particles.arrangement=disordered", "particles.disorder=0.1"],
     "breakdown": ["formulation.motion=conventional", "time.courant=0.015", "loading.damping=0", "output.interval=0.1"],
     "renewed": ["formulation.refresh_strain=0.002", "stop.unbalanced_force_ratio=0.02", "loading.damping=0.02"],
 }

@@ -79,7 +79,8 @@ TEST_CASE("values that are wrong by themselves") {
        "EffectiveStress, "
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
        "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, Yielding, "
-       "MobilisedFriction, PlasticStrain, Opening, Dilation, UndrainedStrength; "
+       "MobilisedFriction, Head, PressureHead, Saturation, DarcyVelocity, HydraulicGradient, "
+       "PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength; "
        "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",
