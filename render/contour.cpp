@@ -80,14 +80,44 @@ Extent soil_extent(const Scenery& scenery) {
   return extent;
 }
 
-/// Soil and particles; where the soil is known, particles that have flown further than half its size do not
-/// count.
+/// The middle of the particles, all but 0.5 % at either end in each direction: all that has slid or run out,
+/// not what was thrown off.
+Extent bulk_of(const std::vector<Point>& positions) {
+  Extent bulk;
+  std::vector<Point> finite;
+  std::ranges::copy_if(positions, std::back_inserter(finite), [](const Point& p) { return p.allFinite(); });
+  if (finite.empty()) return bulk;
+  const auto count = static_cast<std::ptrdiff_t>(finite.size());
+  const std::ptrdiff_t left_out = std::min((count + 199) / 200, (count - 1) / 2);
+  const auto at = [&](int axis, std::ptrdiff_t place) {
+    std::ranges::nth_element(finite, finite.begin() + place, {}, [&](const Point& p) { return p[axis]; });
+    return finite[static_cast<std::size_t>(place)][axis];
+  };
+  bulk.include(at(0, left_out), at(1, left_out));
+  bulk.include(at(0, count - 1 - left_out), at(1, count - 1 - left_out));
+  return bulk;
+}
+
+/// Soil and particles. Where the soil is known, single particles that have flown further than half its size
+/// do not count, and nothing does beyond three times its size.
 Extent body_extent(const ContourPanel& panel, const std::vector<Point>& positions) {
   Extent extent = soil_extent(panel.scenery), limit = extent;
   const bool limited = !panel.scenery.soils.empty();
-  const double reach = 0.5 * std::max(limit.width(), limit.height());
-  limit.include(limit.x_low, limit.y_low, reach);
-  limit.include(limit.x_high, limit.y_high, reach);
+  const double size = std::max(limit.width(), limit.height());
+  Extent furthest = limit;
+  for (auto [box, reach] : {std::pair(&limit, 0.5 * size), std::pair(&furthest, 3 * size)}) {
+    const Extent soil = *box;
+    box->include(soil.x_low, soil.y_low, reach);
+    box->include(soil.x_high, soil.y_high, reach);
+  }
+  if (const Extent bulk = bulk_of(positions); limited && bulk.width() >= 0) {
+    const auto within = [&](double x, double y) {
+      limit.include(std::clamp(x, furthest.x_low, furthest.x_high),
+                    std::clamp(y, furthest.y_low, furthest.y_high));
+    };
+    within(bulk.x_low, bulk.y_low);
+    within(bulk.x_high, bulk.y_high);
+  }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!positions[i].allFinite() || (limited && !limit.contains(positions[i]))) continue;
     const std::vector<double>& sizes = panel.particles.sizes;

@@ -162,6 +162,17 @@ TEST_CASE("particles that have flown far away do not shrink the picture") {
   CHECK(image.find(colour_of(0, {0, 3}), image.width() - bar_space).width() > 150);
 }
 
+TEST_CASE("soil that has run out further than its own size is in the picture") {
+  ContourPanel panel = block(200, 2, 0.01);
+  for (std::size_t i = 0; i < panel.particles.values.size(); ++i)
+    panel.particles.values[i] = panel.particles.positions[i].x() > 1.9 ? 1 : 0;
+  panel.scenery.soils = {{{{0, 0}, {0.5, 0}, {0.5, 0.02}, {0, 0.02}}, {}}};
+  ContourFigure figure = figure_of(panel);
+  figure.scale.range = ValueRange{0, 1};
+  const Image image = saved(figure, "runout.png");
+  CHECK(image.find(colour_of(1, {0, 1}), image.width() - bar_space).pixels > 0);
+}
+
 TEST_CASE("more particles than quads are drawn as points without holes") {
   const ContourPanel panel = [] {
     ContourPanel many = block(1000, 600, 0.01);
