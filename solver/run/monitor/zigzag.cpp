@@ -11,6 +11,7 @@ namespace {
 
 constexpr double reach = 1.6;                ///< of neighbours, in spacings: eight of them in a lattice
 constexpr std::size_t all_around = 7;        ///< neighbours of a particle that is inside
+constexpr double flowed = 0.5;               ///< |G| from which neighbours at the start are so no longer
 constexpr double of_alternating_rows = 1.5;  ///< what such rows make of their amplitude
 
 /// Of the displacement, by least squares over the neighbours; zero where they do not span the plane.
@@ -54,7 +55,9 @@ Zigzag measure_zigzag(const Model& model) {
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) {
     const auto list = near.of(a);
-    const auto inside = [&](std::size_t b) { return near.of(b).size() >= all_around; };
+    const auto inside = [&](std::size_t b) {
+      return near.of(b).size() >= all_around && gradients[b].norm() < flowed;
+    };
     if (!inside(a) || !std::all_of(list.begin(), list.end(), inside))
       continue;  // gradients exact for quadratics
     Vec2 foretold = Vec2::Zero();

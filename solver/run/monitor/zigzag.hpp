@@ -19,8 +19,8 @@ struct Zigzag {
   Vec2 where{0, 0};     ///< of the particle with the largest, at t = 0, in the case's coordinates [m]
 };
 
-/// Over particles whose neighbours have neighbours on all sides, as they have; all zero where there are none,
-/// or nothing has moved.
+/// Over particles whose neighbours have neighbours on all sides, as they have, and where soil has not flowed
+/// (|G| < 0.5); all zero where there are none, or nothing has moved.
 Zigzag measure_zigzag(const Model& model);
 
 }  // namespace porosph
