@@ -61,8 +61,13 @@ struct DruckerPrager : Elasticity {
 
   /// sqrt(J2) + alpha I1 - k: positive outside the yield surface [Pa].
   template <class Space>
-  double yield(const Symmetric<Space>& s, const History& q = {}) const {
+  double yield(const Symmetric<Space>& s, const History& q) const {
     return shear_stress(s) - shear_strength(s, q);
+  }
+  /// The same of soil that has not yielded yet.
+  template <class Space>
+  double yield(const Symmetric<Space>& s) const {
+    return yield(s, History());
   }
   /// sqrt(J2), and the most that the law bears at this mean stress [Pa].
   template <class Space>
