@@ -47,7 +47,7 @@ double of_yielding(const AnyLaw& any, const Particles& p, const std::vector<std:
                    std::size_t a, Use&& use) {
   return std::visit(
       [&]<class Law>(const Law& law) {
-        if constexpr (requires(typename Law::History q) { law.shear_strength(Stress{}, q); })
+        if constexpr (YieldingLaw<Law>)
           return use(law, history_of<Law>(p, places, a));
         else
           return 0.0;
