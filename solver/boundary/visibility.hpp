@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/boundary/soil_outlines.hpp"
 #include "solver/boundary/wall_paths.hpp"
 #include "solver/case/case.hpp"
 #include "solver/particles/particles.hpp"
@@ -38,27 +39,13 @@ class Visibility {
   bool sees_from(const Vec2& point, std::int32_t b, const Particles& particles) const;
 
  private:
-  struct Edge {
-    Vec2 a, b;
-  };
-  /// Where a line leaves the soil: all edges that meet there, and the one through which it comes back.
-  struct Exit {
-    std::vector<const Edge*> out;
-    const Edge* back = nullptr;
-    Vec2 at = Vec2::Zero();
-    bool stays() const { return out.empty(); }
-  };
-  Exit exit(const Vec2& from, const Vec2& to) const;
-  bool hides(const Exit& exit) const;
-  bool in_soil(const Vec2& p) const;
   bool through_slit(const Vec2& from, const Vec2& to) const;
   bool any_slit_hides(const Particles& particles);
 
-  std::vector<Edge> edges_;
+  SoilOutlines outlines_;
   std::vector<std::uint8_t> near_edge_;  ///< of particles: within the range of an edge at the start
   WallPaths walls_;
-  std::vector<Wall> segments_;               ///< walls, as far as outlines go
-  std::vector<std::vector<Polygon>> rings_;  ///< of each soil: outline, then holes
+  std::vector<Wall> segments_;  ///< walls, as far as outlines go
   double range_ = 0, spacing_ = 0;
   bool has_slits_ = false, ghosts_everywhere_ = true;
 };

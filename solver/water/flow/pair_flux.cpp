@@ -62,7 +62,7 @@ class Builder {
   }
 
   void link() {
-    const OutlineSight sight(soils_, outline_.stretches, p_, kernel_.support(), spacing_);
+    const OutlineSight sight(soils_, kernel_.support(), spacing_);
     const NeighbourList all = find_neighbours(points_, particles(), (1 - 1e-9) * kernel_.support());
     const auto n = static_cast<std::int32_t>(particles());
     links_begin_ = {0};
