@@ -2,8 +2,6 @@
 
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -15,9 +13,7 @@
 #include <map>
 #include <utility>
 
-#include "vtk_io/run_folder/atomic_file.hpp"
-#include "vtk_io/run_folder/file_errors.hpp"
-#include "vtk_io/vtk_errors.hpp"
+#include "vtk_io/write_appended.hpp"
 
 namespace porosph {
 namespace {
@@ -102,21 +98,8 @@ vtkNew<vtkUnstructuredGrid> grid_of(const FemSolution& solution) {
 void write_fem_vtu(const FemSolution& solution, const std::filesystem::path& file) {
   const auto grid = grid_of(solution);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  vtkNew<VtkErrors> errors;
-  errors->watch(*writer);
-  errors->watch(*writer->GetExecutive());
   writer->SetInputData(grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  replace_file(file, [&](const std::filesystem::path& temporary) {
-    writer->SetFileName(temporary.c_str());
-    const bool written = writer->Write() != 0;
-    if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError)
-      throw WriteError(file, words_of(code));
-    if (!written || errors->any()) throw WriteError(file, errors->first());
-  });
+  write_appended(*writer, file);
 }
 
 }  // namespace porosph

@@ -3,16 +3,12 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include "vtk_io/run_folder/atomic_file.hpp"
-#include "vtk_io/run_folder/file_errors.hpp"
-#include "vtk_io/vtk_errors.hpp"
+#include "vtk_io/write_appended.hpp"
 
 namespace porosph {
 namespace {
@@ -42,21 +38,8 @@ void write_lines_vtp(const std::filesystem::path& file, const std::vector<std::v
                      const std::string& name, const std::vector<double>& values) {
   const auto data = poly_data(lines, name, values);
   vtkNew<vtkXMLPolyDataWriter> writer;
-  vtkNew<VtkErrors> errors;
-  errors->watch(*writer);
-  errors->watch(*writer->GetExecutive());
   writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  replace_file(file, [&](const std::filesystem::path& temporary) {
-    writer->SetFileName(temporary.c_str());
-    const bool written = writer->Write() != 0;
-    if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError)
-      throw WriteError(file, words_of(code));
-    if (!written || errors->any()) throw WriteError(file, errors->first());
-  });
+  write_appended(*writer, file);
 }
 
 }  // namespace porosph
