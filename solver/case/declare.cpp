@@ -1,11 +1,11 @@
-// Every key of a case: name, unit, meaning, range. Defaults are those of the structs in case.hpp.
+// Every key of a case: name, unit, meaning, range; those of soils, water and formulation have files of their
+// own. Defaults are those of the structs in case.hpp.
 #include <array>
 #include <cmath>
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/outline_edges.hpp"
-#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
@@ -14,123 +14,15 @@ using Names = std::string_view;
 constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
                                             "disordered", "surface", "stretched"};
 constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
-constexpr std::array<Names, 4> motions{"conventional", "proposed", "rho_squared", "consistent"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
-constexpr std::array<Names, 3> water_modes{"still", "steady", "coupled"};
-constexpr std::array<Names, 4> face_kinds{"head", "closed", "seepage", "flux"};
-constexpr std::array<Names, 3> retention_models{"saturated", "gardner", "van_genuchten"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
-constexpr std::array<Names, 4> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca"};
-constexpr double steepest = 80;  // degrees
-constexpr std::array<Names, 3> softenings{"none", "exponential", "linear"};
-
-bool level_everywhere(const WaterCase& c) {
-  return c.stretches.size() == 1 && c.stretches[0].x_from == -never && c.stretches[0].x_to == never;
-}
 
 /// By the maps of docs/stability.md; the paper's lattices have 1.2.
 double default_smoothing_ratio(Arrangement arrangement) {
   const bool fits = arrangement == Arrangement::automatic || arrangement == Arrangement::surface ||
                     arrangement == Arrangement::stretched;
   return fits ? 1 : 1.2;
-}
-
-/// A key that its soil must have; in the documents as well, where no soil is given.
-Key required_if(bool used, std::string_view name, std::string_view unit, std::string_view meaning,
-                std::string condition) {
-  Key key = Key(name, unit, meaning).only_if(used, std::move(condition)).otherwise("required");
-  key.is_required = used;
-  return key;
-}
-
-void declare_friction(Fields& f, bool used, StrengthCase& c) {
-  const std::string condition = "law = \"drucker_prager\" or \"mohr_coulomb\"";
-  f.number(required_if(used, "cohesion", "Pa", "Cohesion c, of effective stress.", condition), c.cohesion,
-           between(0, stiffest));
-  f.number(
-      required_if(used, "friction_angle", "degrees", "Friction angle phi, of effective stress.", condition),
-      c.friction_angle, between(0, steepest));
-  f.number(
-      Key("dilation_angle", "degrees", "Dilation angle psi of plastic flow; not more than friction_angle.")
-          .only_if(used, condition),
-      c.dilation_angle, between(0, steepest));
-  if (used && c.dilation_angle > c.friction_angle)
-    f.reject("dilation_angle", fmt::format("must be <= friction_angle = {} degrees", c.friction_angle));
-}
-
-void declare_undrained(Fields& f, bool used, StrengthCase& c) {
-  const std::string condition = "law = \"tresca\"";
-  f.number(required_if(used, "undrained_strength", "Pa",
-                       "Undrained shear strength c_u, at `undrained_strength_level` and above.", condition),
-           c.undrained_strength, above(0, stiffest));
-  f.number(
-      Key("undrained_strength_growth", "Pa/m",
-          "By how much c_u grows with depth below `undrained_strength_level`; soil keeps the strength of "
-          "where it is at the start.")
-          .only_if(used, condition),
-      c.growth, between(0, stiffest));
-  f.number(Key("undrained_strength_level", "m", "y from which c_u grows.")
-               .only_if(used && c.growth > 0, "undrained_strength_growth > 0")
-               .otherwise("the soil's highest point"),
-           c.level, between(-farthest, farthest));
-}
-
-void declare_softening(Fields& f, bool frictional, bool undrained, StrengthCase& c) {
-  const bool used = frictional || undrained;
-  f.choice(
-      Key("softening", "",
-          "How strength falls with plastic shear strain, and dilation to nothing with it. `exponential`: "
-          "by 1 - 1/e at `softening_strain`; `linear`: to its end at `softening_strain`.")
-          .only_if(used, "law = one that yields"),
-      c.softening, softenings);
-  const bool softens = used && c.softening != SofteningKind::none;
-  const std::string condition = "softening = \"exponential\" or \"linear\"";
-  f.number(
-      required_if(softens, "softening_strain", "",
-                  "Plastic shear strain in a band of `softening_length` by which strength falls.", condition),
-      c.softening_strain, above(0, 1e6));
-  f.number(
-      required_if(softens, "softening_length", "m",
-                  "Width of the shear bands in which `softening_strain` holds. Bands are a few particles "
-                  "wide, so plastic strain counts by spacing over this length: results then do not hang "
-                  "on the spacing.",
-                  condition),
-      c.softening_length, above(0, farthest));
-  f.number(Key("residual_cohesion", "Pa", "Cohesion that softening leaves; not more than cohesion.")
-               .only_if(frictional && softens, condition)
-               .otherwise("0"),
-           c.residual_cohesion, between(0, stiffest));
-  if (softens && frictional && c.residual_cohesion > c.cohesion)
-    f.reject("residual_cohesion", fmt::format("must be <= cohesion = {} Pa", c.cohesion));
-  f.set_defaults([&] { c.residual_friction_angle = c.friction_angle; });
-  f.number(Key("residual_friction_angle", "degrees",
-               "Friction angle that softening leaves; not more than friction_angle.")
-               .only_if(frictional && softens, condition)
-               .otherwise("friction_angle"),
-           c.residual_friction_angle, between(0, steepest));
-  if (softens && frictional && c.residual_friction_angle > c.friction_angle)
-    f.reject("residual_friction_angle",
-             fmt::format("must be <= friction_angle = {} degrees", c.friction_angle));
-  f.number(Key("sensitivity", "", "Undrained strength over what softening leaves of it.")
-               .only_if(undrained && softens, condition + " and law = \"tresca\""),
-           c.sensitivity, above(1, 1e6));
-}
-
-/// Of a soil with this law.
-void declare_strength(Fields& f, LawKind law, StrengthCase& c) {
-  const bool frictional = law == LawKind::drucker_prager || law == LawKind::mohr_coulomb;
-  const bool undrained = law == LawKind::tresca;
-  declare_friction(f, frictional, c);
-  declare_undrained(f, undrained, c);
-  f.number(
-      Key("tensile_strength", "Pa",
-          "Tension that the soil bears at most: of the mean stress with `drucker_prager`, of the largest "
-          "principal stress with the others.")
-          .only_if(frictional || undrained, "law = one that yields")
-          .otherwise("what cohesion and friction give; with `tresca` any"),
-      c.tensile_strength, between(0, stiffest));
-  declare_softening(f, frictional, undrained, c);
 }
 
 }  // namespace
@@ -144,24 +36,6 @@ std::string Range::text() const {
 
 std::string_view arrangement_name(Arrangement arrangement) {
   return arrangements[static_cast<std::size_t>(arrangement)];
-}
-
-std::string_view law_name(LawKind law) { return laws[static_cast<std::size_t>(law)]; }
-
-std::string_view motion_name(Motion motion) { return motions[static_cast<std::size_t>(motion)]; }
-
-// Strengths of the artificial terms as in Bui et al. 2008 (Int. J. Numer. Anal. Meth. Geomech. 32).
-FormulationCase default_formulation(Motion motion) {
-  FormulationCase c;
-  c.motion = motion;
-  if (motion == Motion::consistent) {
-    c.bulk_viscosity = 0.06;
-    c.zero_energy_control = 0.2;  // both by the map cases/stability/refresh_zero_energy.toml
-    c.refresh_strain = 0.02;
-  } else {
-    c.artificial_viscosity_alpha = 0.1;
-  }
-  return c;
 }
 
 void declare(Fields& f, Case& c) {
@@ -231,177 +105,6 @@ void declare(Fields& f, ParticlesCase& c) {
             c.seed, between(0, 999999));
 }
 
-void declare(Fields& f, SoilCase& c) {
-  f.name(Key("name", "", "Name of the soil, unlike any other.").required(), c.name);
-  f.polygon(Key("polygon", "m", "Outline, last point not repeated, either orientation.").required(),
-            c.polygon);
-  f.polygons(Key("holes", "m", "Outlines inside the polygon without soil."), c.holes);
-  f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus,
-           above(0, stiffest));
-  f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
-           {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
-  f.number(Key("unit_weight_saturated", "N/m3", "Unit weight of the soil below water.").required(),
-           c.unit_weight_saturated, above(0, heaviest));
-  f.set_defaults([&] { c.unit_weight_unsaturated = c.unit_weight_saturated; });
-  f.number(
-      Key("unit_weight_unsaturated", "N/m3", "Unit weight of the soil above water; not more than saturated.")
-          .otherwise("as saturated"),
-      c.unit_weight_unsaturated, above(0, heaviest));
-  if (c.unit_weight_unsaturated > c.unit_weight_saturated)
-    f.reject("unit_weight_unsaturated",
-             fmt::format("must be <= unit_weight_saturated = {} N/m3", c.unit_weight_saturated));
-  f.choice(
-      Key("law", "",
-          "How stress follows strain. `elastic`: linear, without end; the others are so until they yield. "
-          "`drucker_prager`: friction and cohesion by a cone that in plane strain has Mohr and Coulomb's "
-          "strength; `mohr_coulomb`: theirs itself; `tresca`: undrained clay, whose shear strength does not "
-          "depend on pressure."),
-      c.law, laws);
-  f.flag(
-      Key("no_tension", "",
-          "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
-          "compressive the soil stays elastic and its shear strength is unlimited: nothing slips.")
-          .only_if(c.law == LawKind::elastic, "law = \"elastic\""),
-      c.no_tension);
-  declare_strength(f, c.law, c.strength);
-  const double upright = c.permeability.y();
-  f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")
-               .otherwise("none"),
-           c.permeability.x(), above(0, most_permeable));
-  f.set_defaults([&] { c.permeability.y() = upright > 0 ? upright : c.permeability.x(); });
-  f.number(Key("permeability_vertical", "m/s", "The same along y, in soil that is anisotropic.")
-               .only_if(c.permeability.x() > 0, "permeability")
-               .otherwise("as permeability"),
-           c.permeability.y(), above(0, most_permeable));
-  f.number(Key("porosity", "", "Part of the soil that is water, whose volume gives way with it.")
-               .only_if(c.permeability.x() > 0, "permeability")
-               .otherwise("0.4"),
-           c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
-  f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
-          c.retention.model != RetentionModel::saturated);
-  f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
-  f.number(Key("angular_velocity", "rad/s",
-               "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
-           c.angular_velocity, between(-1e6, 1e6));
-  f.number(Key("bending_velocity", "m/s",
-               "Vibration at the start: upwards at the right end of a plate that is clamped at its left end, "
-               "elsewhere in the shape of the first bending mode. For an upright rectangle."),
-           c.bending_velocity, between(-1e6, 1e6));
-}
-
-void declare(Fields& f, RetentionCase& c) {
-  f.choice(
-      Key("model", "",
-          "`gardner`: kr = S_e = exp(alpha psi); `van_genuchten`: his S_e with Mualem's kr; `saturated`: "
-          "kr falls from 1 at the water table to 0.001 within one spacing above it, and suction does not "
-          "act on the soil."),
-      c.model, retention_models);
-  const bool curved = c.model != RetentionModel::saturated;
-  f.number(Key("alpha", "1/m", "Of suction: the larger, the coarser the soil.")
-               .only_if(curved, "model = \"gardner\" or \"van_genuchten\""),
-           c.alpha, above(0, 1e4));
-  const bool genuchten = c.model == RetentionModel::van_genuchten;
-  f.number(Key("n", "", "Van Genuchten's n.").only_if(genuchten, "model = \"van_genuchten\""), c.n,
-           above(1, 20));
-  if (curved && !(c.alpha > 0)) f.reject("alpha", "is missing: the model needs it");
-  if (genuchten && !(c.n > 1)) f.reject("n", "is missing: the model needs it");
-}
-
-void declare(Fields& f, HydraulicFaceCase& c) {
-  f.choice(Key("kind", "",
-               "`head`: water stands at `level` beside it, and above that water may leave; `closed`: nothing "
-               "passes; `seepage`: water leaves where its pressure reaches that of the air, and none enters; "
-               "`flux`: `rate` passes.")
-               .required(),
-           c.kind, face_kinds);
-  f.point(Key("from", "m", "One end of a straight stretch of the outline; it may reach beyond it.")
-              .otherwise("the whole outline"),
-          c.from);
-  f.point(Key("to", "m", "The other end.").otherwise("the whole outline"), c.to);
-  if (c.from.allFinite() != c.to.allFinite()) f.reject("", "needs both 'from' and 'to', or none of them");
-  if (c.from.allFinite() && c.from == c.to) f.reject("to", "must differ from 'from'");
-  f.number(Key("level", "m", "y of the water beside it.")
-               .only_if(c.kind == FaceKind::head, "kind = \"head\"")
-               .otherwise("none"),
-           c.level, between(-farthest, farthest));
-  if (c.kind == FaceKind::head && !(c.level < never))
-    f.reject("level", "is missing: kind = \"head\" needs it");
-  f.number(Key("rate", "m/s", "Of water into the soil per area of the face; negative: out of it.")
-               .only_if(c.kind == FaceKind::flux, "kind = \"flux\""),
-           c.rate, between(-most_permeable, most_permeable));
-}
-
-static void declare_coupling(Fields& f, bool used, CouplingCase& c) {
-  const auto key = [&](std::string_view name, std::string_view unit, std::string_view meaning) {
-    return Key(name, unit, meaning).only_if(used, "mode = \"coupled\"");
-  };
-  bool incompressible = !(c.bulk_modulus < never);
-  double modulus = incompressible ? CouplingCase{}.bulk_modulus : c.bulk_modulus;
-  f.number_or(key("bulk_modulus", "Pa", "Of water; `incompressible`: it keeps its volume."), modulus,
-              above(0, stiffest), "incompressible", incompressible);
-  c.bulk_modulus = incompressible ? CouplingCase::incompressible : modulus;
-  f.number(key("first_step", "s", "First step of the flow.")
-               .otherwise("spacing^2 / c_v, which water takes from one particle to the next"),
-           c.first_step, above(0, longest));
-  f.number(key("growth", "", "Largest ratio of a flow step to the one before it."), c.growth, between(1, 2));
-  f.number(key("tolerance", "",
-               "Of the error that a flow step makes in time, over the largest excess pressure; a tenth of it "
-               "may be "
-               "left of forces and of changes of pressure."),
-           c.tolerance, between(1e-6, 0.1));
-}
-
-void declare(Fields& f, WaterCase& c) {
-  f.choice(
-      Key("mode", "",
-          "`still`: the water stands under its level; `steady`: it flows steadily between the faces "
-          "[[water.face]], and the soil then comes to rest in that flow; `coupled`: saturated soil under a "
-          "level gives its water away over time, at rest all the while (consolidation)."),
-      c.mode, water_modes);
-  f.number(Key("unit_weight", "N/m3", "Unit weight of water."), c.unit_weight, above(0, heaviest));
-  const bool still = c.mode == WaterMode::still, levelled = c.mode != WaterMode::steady;
-  const bool coupled = c.mode == WaterMode::coupled;
-  declare_coupling(f, coupled, c.coupling);
-  f.tables(Key("face", "",
-               "What holds at a stretch of the outline of the soils where water flows; where faces overlap "
-               "the later "
-               "one holds. With `steady` the whole outline must be named. With `coupled` nothing passes "
-               "boundaries "
-               "and the rest drains, where no face says otherwise.")
-               .only_if(c.mode != WaterMode::still, "mode = \"steady\" or \"coupled\""),
-           c.faces);
-  const bool moves = !c.level_over_time.empty();
-  double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
-  std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
-  f.number(Key("level", "m", "y of the free surface, the same everywhere.")
-               .only_if(levelled, "mode = \"still\" or \"coupled\"")
-               .otherwise("see `stretches`"),
-           level, between(-farthest, farthest));
-  f.tables(Key("stretches", "",
-               "A stretch of the free surface, in place of one `level`; soil outside all stretches "
-               "is dry. One that ends at an upright face of a soil presses on that face.")
-               .only_if(still, "mode = \"still\""),
-           stretches);
-  f.pairs(Key("level_over_time", "s, m",
-              "A free surface that rises and falls, in place of one `level`: its y over time, linear between "
-              "these times and constant before and after. Soil keeps the weight that it has at the start.")
-              .only_if(still, "mode = \"still\"")
-              .otherwise("see `level`"),
-          c.level_over_time);
-  if (!levelled) return;
-  if ((level < never) + !stretches.empty() + !c.level_over_time.empty() != 1)
-    f.reject("", "needs one of 'level', 'stretches' and 'level_over_time'");
-  if (!c.level_over_time.empty()) level = level_at(c, 0);
-  c.stretches = level < never ? std::vector<WaterStretch>{{-never, never, level}} : std::move(stretches);
-}
-
-void declare(Fields& f, WaterStretch& c) {
-  f.number(Key("x_from", "m", "Left end.").otherwise("no end"), c.x_from, between(-farthest, farthest));
-  f.number(Key("x_to", "m", "Right end.").otherwise("no end"), c.x_to, between(-farthest, farthest));
-  if (c.x_to <= c.x_from) f.reject("x_to", fmt::format("must be > x_from = {} m", c.x_from));
-  f.number(Key("level", "m", "y of the free surface.").required(), c.level, between(-farthest, farthest));
-}
-
 void declare(Fields& f, BoundaryCase& c) {
   f.choice(Key("kind", "", "`roller`: free to slide along it; `fixed`: no motion.").required(), c.kind,
            boundary_kinds);
@@ -426,62 +129,6 @@ void declare(Fields& f, LoadCase& c) {
               "before and after.")
               .otherwise("1 at all times"),
           c.over_time);
-}
-
-void declare(Fields& f, FormulationCase& c) {
-  f.choice(
-      Key("motion", "",
-          "Momentum equation. `conventional`: eq. (17), `proposed`: eq. (24), `rho_squared`: eq. (25) of the "
-          "paper; `consistent`: each stress with its own correction matrix."),
-      c.motion, motions);
-  f.set_defaults([&] { c = default_formulation(c.motion); });
-  f.flag(Key("kernel_correction", "", "Gradients exact for linear fields, eqs. (9) and (10)."),
-         c.kernel_correction);
-  const bool consistent = c.motion == Motion::consistent;
-  const auto key = [&](std::string_view name, std::string_view meaning) {
-    return Key(name, "", meaning).only_if(!consistent, "motion = one of the paper's forms");
-  };
-  const FormulationCase paper = default_formulation(Motion::proposed);
-  f.number(key("artificial_viscosity_alpha", "Linear term of the viscosity between pairs; 0: off.")
-               .otherwise(fmt::to_string(paper.artificial_viscosity_alpha)),
-           c.artificial_viscosity_alpha, between(0, 10));
-  f.number(key("artificial_viscosity_beta", "Quadratic term of the viscosity between pairs; 0: off."),
-           c.artificial_viscosity_beta, between(0, 10));
-  f.number(key("artificial_stress", "Strength of the artificial stress against clumping; 0: off.")
-               .otherwise(fmt::to_string(paper.artificial_stress)),
-           c.artificial_stress, between(0, 1));
-
-  const auto key_of_consistent = [&](std::string_view name, std::string_view meaning) {
-    return Key(name, "", meaning).only_if(consistent, "motion = \"consistent\"");
-  };
-  const FormulationCase usual = default_formulation(Motion::consistent);
-  f.number(key_of_consistent("bulk_viscosity", "Viscosity of each particle in compression; 0: off.")
-               .otherwise(fmt::to_string(usual.bulk_viscosity)),
-           c.bulk_viscosity, between(0, 10));
-  f.number(key_of_consistent("zero_energy_control",
-                             "Viscosity on the part of the motion that no gradient sees; 0: off.")
-               .otherwise(fmt::to_string(usual.zero_energy_control)),
-           c.zero_energy_control, between(0, 1));
-  f.number(
-      key_of_consistent("zero_energy_stiffness",
-                        "Elastic part of that control: a spring of this times the control's strength "
-                        "times the constrained modulus of the softest soil in reach; 0: viscous only.")
-          .otherwise("0.1 where soils of different stiffness meet or outlines cut cells; 0.6 where walls "
-                     "turn corners, slits part the soil or gradients had to be closed, 0.1 if it may "
-                     "yield; else 0"),
-      c.zero_energy_stiffness, between(0, 10));
-  f.number(key_of_consistent("refresh_strain",
-                             "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
-               .otherwise(fmt::to_string(usual.refresh_strain)),
-           c.refresh_strain, between(0, 0.1));
-  f.flag(key_of_consistent(
-             "closed_gradients",
-             "Change the gradients of disordered particles so that a uniform stress is in balance."),
-         c.closed_gradients);
-  f.flag(key_of_consistent(
-             "single_precision",
-             "Store kernel gradients in single precision: less memory where particles lie irregularly."),
-         c.single_precision);
 }
 
 void declare(Fields& f, LoadingCase& c) {
