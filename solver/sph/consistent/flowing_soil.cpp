@@ -20,7 +20,7 @@ Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
 bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
-  return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).kind == BoundaryKind::fixed;
+  return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).support().carries_shear();
 }
 
 }  // namespace
@@ -59,9 +59,7 @@ void FlowingSoil::even_out(Model& model) {
   Particles& p = model.particles;
   const CubicSpline<2> kernel(model.smoothing_length);
   const std::size_t n = p.size();
-  std::vector<Vec2> points = p.position;
-  const Ghosts ghosts(model.walls, 0, model.walls.size(), kernel.support(), points);
-  const NeighbourList list = find_neighbours(points, n, kernel.support());
+  const auto [points, ghosts, list] = seen_neighbours(model, kernel);
   std::vector<Vec2> moves(n, Vec2::Zero());
   const double dx = model.spacing, h2 = model.smoothing_length * model.smoothing_length;
 #pragma omp parallel for schedule(static)
@@ -132,11 +130,14 @@ void FlowingSoil::diffuse_stress(const ReferenceConfiguration& r, Model& model, 
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     near[a] = shears[a];
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
+      if (b < n && p.soil[b] == p.soil[a]) near[a] |= shears[b];
+    });
+    if (!near[a]) continue;
     const Vec4 own = vector(p.stress[a]);
     Gradient4 sum = Gradient4::Zero();
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
       if (b >= n || p.soil[b] != p.soil[a]) return;
-      near[a] |= shears[b];
       sum += (vector(p.stress[b]) - own) * Eigen::RowVector2d(g.x, g.y);
     });
     gradient[a] = sum * correction_[a].transpose();

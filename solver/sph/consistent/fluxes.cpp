@@ -4,8 +4,7 @@
 
 namespace porosph {
 
-Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control)
-    : behind_walls_(r) {
+Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control) : behind_walls_(r) {
   const Particles& p = model.particles;
   const std::size_t all = r.points.size();
   deformation_.assign(p.size(), Mat2::Identity());

@@ -1,6 +1,7 @@
 #include "solver/sph/consistent/reference.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/sph/consistent/closed_gradients.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
@@ -19,25 +20,6 @@ Ghosts ghosts_behind_walls(const Model& model, double range, std::vector<Vec2>& 
   const std::size_t n = points.size();
   if (model.visibility.everywhere()) return {model.walls, 0, model.walls.size(), range, points};
   return {model.walls, model.visibility.walls().append_seen_images(points), n};
-}
-
-/// Particles and ghosts that a particle's kernel reaches and that it sees.
-NeighbourList visible_neighbours(const Model& model, const ReferenceConfiguration& r,
-                                 const CubicSpline<2>& kernel) {
-  NeighbourList all = stencil_neighbours(r.points, r.particles(), kernel);
-  if (model.visibility.everywhere()) return all;
-  const WallPaths& walls = model.visibility.walls();
-  const Particles& p = model.particles;
-  const auto n = static_cast<std::int32_t>(r.particles());
-  std::vector<std::vector<std::int32_t>> near(n);
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) near[a] = walls.near(r.points[a]);
-  return kept(all, [&](std::int32_t a, std::int32_t b) {
-    if (b < n) return walls.clear(r.points[a], r.points[b], near[a]) && model.visibility.past_slits(a, b, p);
-    const std::size_t ghost = b - n;
-    return walls.leads(r.points[a], r.points[b], ghost, r.ghosts.images(), n, near[a]) &&
-           model.visibility.past_slits(a, r.ghosts.root(ghost), p);
-  });
 }
 
 /// L of eq. (10), of the particles.
@@ -70,6 +52,27 @@ void close(const Model& model, ReferenceConfiguration& r, std::vector<Mat2>& cor
 
 }  // namespace
 
+SeenNeighbours seen_neighbours(const Model& model, const CubicSpline<2>& kernel) {
+  const Particles& p = model.particles;
+  const auto n = static_cast<std::int32_t>(p.size());
+  SeenNeighbours all{.points = p.position, .ghosts = {}, .list = {}};
+  all.ghosts = ghosts_behind_walls(model, kernel.support(), all.points);
+  all.list = stencil_neighbours(all.points, p.size(), kernel);
+  if (model.visibility.everywhere()) return all;
+  const WallPaths& walls = model.visibility.walls();
+  const std::vector<Vec2>& points = all.points;
+  std::vector<std::vector<std::int32_t>> near(n);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) near[a] = walls.near(points[a]);
+  all.list = kept(all.list, [&](std::int32_t a, std::int32_t b) {
+    if (b < n) return walls.clear(points[a], points[b], near[a]) && model.visibility.past_slits(a, b, p);
+    const std::size_t ghost = b - n;
+    return walls.leads(points[a], points[b], ghost, all.ghosts.images(), n, near[a]) &&
+           model.visibility.past_slits(a, all.ghosts.root(ghost), p);
+  });
+  return all;
+}
+
 ReferenceView ReferenceConfiguration::view(const Particles& p) {
   ReferenceView v{};
   v.stencils = &stencils;
@@ -83,11 +86,11 @@ ReferenceView ReferenceConfiguration::view(const Particles& p) {
 ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation) {
   const CubicSpline<2> kernel(model.smoothing_length);
   ReferenceConfiguration r;
-  r.points = model.particles.position;
-  r.ghosts = ghosts_behind_walls(model, kernel.support(), r.points);
+  SeenNeighbours seen = seen_neighbours(model, kernel);
+  r.points = std::move(seen.points), r.ghosts = std::move(seen.ghosts);
   make_volumes(model.particles, r);
-  r.stencils = make_pair_stencils(r.points, visible_neighbours(model, r, kernel), r.volume, kernel,
-                                  formulation.single_precision);
+  r.stencils =
+      make_pair_stencils(r.points, std::move(seen.list), r.volume, kernel, formulation.single_precision);
 
   std::vector<Mat2> correction = corrections(r, formulation.kernel_correction);
   if (formulation.closed_gradients && formulation.kernel_correction) close(model, r, correction);

@@ -29,6 +29,15 @@ struct ReferenceConfiguration {
   ReferenceView view(const Particles& particles);
 };
 
+/// Particles, then ghosts, where they are now, and those that each particle's kernel reaches and that it
+/// sees.
+struct SeenNeighbours {
+  std::vector<Vec2> points;  ///< [m]
+  Ghosts ghosts;
+  NeighbourList list;
+};
+SeenNeighbours seen_neighbours(const Model& model, const CubicSpline<2>& kernel);
+
 /// That of the particles where they are now.
 ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation);
 
