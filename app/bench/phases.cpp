@@ -28,7 +28,7 @@ const std::vector<Form> forms = {
 
 /// The phases of one step in the order of the page, by what is timed from outside.
 const std::vector<std::string> every_step = {"geometry", "accelerations", "strain", "integration"};
-const std::vector<std::string> now_and_then = {"neighbour search", "geometry made anew", "monitoring",
+const std::vector<std::string> now_and_then = {"neighbour search", "geometry rebuilt", "monitoring",
                                                "frame written"};
 
 class Subject {
@@ -70,7 +70,7 @@ class Subject {
     const double reach = 2 * simulation_->model().smoothing_length;
     into["neighbour search"].push_back(once *
                                        timed([&] { find_neighbours(position, position.size(), reach); }).cpu);
-    into["geometry made anew"].push_back(once * first_geometry_);
+    into["geometry rebuilt"].push_back(once * first_geometry_);
     into["monitoring"].push_back(once * timed([&] {
                                           simulation_->look_for_breakdown();
                                           simulation_->unbalanced_force_ratio();

@@ -136,7 +136,7 @@ struct FormulationCase {
                                       ///< soil in reach [-]; negative: 0, but 0.1 where soils of different
                                       ///< stiffness meet, outlines cut cells or gradients had to be closed
   double refresh_strain =
-      0;  ///< strain or rotation after which kernel gradients are made anew; 0: every step [-]
+      0;  ///< strain or rotation after which kernel gradients are rebuilt; 0: every step [-]
   bool closed_gradients = true;   ///< a uniform stress is in balance also in disorder
   bool single_precision = false;  ///< of stored kernel gradients
 };

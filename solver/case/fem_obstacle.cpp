@@ -15,7 +15,8 @@ std::string fem_obstacle(const Case& scene) {
     if (soil.velocity != Point::Zero() || soil.angular_velocity != 0 || soil.bending_velocity != 0)
       return fmt::format("soil '{}' has an initial velocity", soil.name);
   }
-  if (!scene.loading.gravity_applied && scene.loads.empty()) return "the scene is weightless, and has no load";
+  if (!scene.loading.gravity_applied && scene.loads.empty())
+    return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";
   if (!scene.water.level_over_time.empty() || scene.water.mode == WaterMode::coupled)
     return "the water moves";

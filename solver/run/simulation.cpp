@@ -244,7 +244,7 @@ void Simulation::name_breakdown(double time) {
 
 void Simulation::look_for_breakdown() {
   constexpr double met = 0.25;  // of the smallest distance at the start
-  const bool flows = std::ranges::any_of(model_.soils, &Soil::flows);  // particles meet anew all the time
+  const bool flows = std::ranges::any_of(model_.soils, &Soil::flows);  // particles keep meeting new ones
   if (!instability_ && !flows) instability_ = find_crossing(model_, met * at_start_.closest, time());
   if (!instability_) instability_ = find_beyond_wall(model_, time());
   if (scene_.stop.on_separation && !instability_)

@@ -53,7 +53,8 @@ class Simulation {
   /// Root mean square of the unbalanced forces over that of the weights; infinite in a weightless scene.
   double unbalanced_force_ratio();
   struct Energy {
-    double kinetic = 0, elastic = 0, gravity = 0, water = 0;  ///< gravity with loads; per metre of thickness [J/m]
+    double kinetic = 0, elastic = 0, gravity = 0,
+           water = 0;  ///< gravity with loads; per metre of thickness [J/m]
     double total() const { return kinetic + elastic + gravity + water; }
   };
   /// Energy at the present instant; gravity and buoyancy relative to the start.

@@ -34,7 +34,7 @@ class Dynamics {
   virtual void strain(double dt) = 0;
 
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
-  /// saving. Lists and gradients are made anew by the code that made them first. Throws StateError.
+  /// saving. Lists and gradients are rebuilt by the code that made them first. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
 
   /// What it does where soil yields and flows, if anything.

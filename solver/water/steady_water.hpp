@@ -25,7 +25,7 @@ class SteadyWater final : public PoreWater {
   void follow(const StandingWater& standing, Particles& particles, std::size_t first,
               std::size_t last) const override;
   void flow(const StandingWater&, Particles&, double) override {}
-  /// The head goes on linearly behind walls.
+  /// Behind walls the head continues linearly.
   void fill_ghosts(const StandingWater& standing, const Particles& particles, const Ghosts& ghosts,
                    std::span<const Vec2> places, std::span<double> pressure) const override;
   void visit(StateArchive&) override {}

@@ -238,7 +238,7 @@ TEST_CASE("a person's own case file is not written over") {
   CHECK(text_of(place.folder() / "case.toml") == mine);
 }
 
-TEST_CASE("resuming and beginning anew exclude each other") {
+TEST_CASE("resuming and starting over exclude each other") {
   const Workplace place;
   place.write("small.toml", small_case);
   CHECK(place.porosph("run small.toml --resume --force").status == 2);

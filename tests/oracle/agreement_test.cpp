@@ -188,8 +188,7 @@ TEST_CASE("The consistent form stays with its reference configuration while the 
   CHECK(deformed > 1e-3);
 }
 
-TEST_CASE("The consistent form takes its reference anew in every step where no strain is allowed",
-          "[oracle]") {
+TEST_CASE("The consistent form rebuilds its reference in every step where no strain is allowed", "[oracle]") {
   const auto held = GENERATE(values(every_hold));
   const FormulationCase formulation{
       .bulk_viscosity = 0.06, .zero_energy_control = 0.05, .closed_gradients = false};

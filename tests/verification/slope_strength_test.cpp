@@ -42,8 +42,8 @@ double displacement(double stiffness, double factor) {
   };
   Simulation elastic(scene), yielding(scene);
   const double angle = std::atan(std::tan(20 * std::acos(-1) / 180) / factor) * 180 / std::acos(-1);
-  yielding.set_law(
-      "soil", DruckerPrager::from_mohr_coulomb(Elasticity::from_young(1e8, 0.3), 10e3 / factor, angle));
+  yielding.set_law("soil",
+                   DruckerPrager::from_mohr_coulomb(Elasticity::from_young(1e8, 0.3), 10e3 / factor, angle));
   return largest(yielding) / largest(elastic);
 }
 

@@ -80,8 +80,7 @@ TEST_CASE("soils that meet and yield go on to the same bits", "[checkpoint]") {
   scene.soils[0].velocity = Point(0.3, 0);
   Simulation original(scene), restored(scene);
   for (Simulation* s : {&original, &restored})
-    s->set_law("upper",
-               DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(5e4, 0.1), 1e3, 20));
+    s->set_law("upper", DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(5e4, 0.1), 1e3, 20));
   for (int i = 0; i < steps_before; ++i) original.advance();
   StateWriter writer;
   original.visit(writer);

@@ -241,7 +241,7 @@ TEST_CASE("the fields that a case may ask for are those that frames can hold") {
   }
 }
 
-// After a change of keys: unit_solver "[.write-docs]" writes the reference part anew.
+// After a change of keys: unit_solver "[.write-docs]" rewrites the reference part.
 TEST_CASE("the case format's documentation is up to date") {
   CHECK(contents("docs/case-format.md").ends_with("\n## Reference\n\n" + describe_case_format()));
 }

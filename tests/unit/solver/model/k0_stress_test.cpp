@@ -82,7 +82,8 @@ TEST_CASE("a model is a case in SI units", "[model]") {
 }
 
 TEST_CASE("a stretch of water ends where it says", "[model]") {
-  const StandingWater water({.unit_weight = 10e3, .stretches = {{0, 2, 5}, {3, 4, 1}}, .level_over_time = {}});
+  const StandingWater water(
+      {.unit_weight = 10e3, .stretches = {{0, 2, 5}, {3, 4, 1}}, .level_over_time = {}});
   CHECK(water.pore_pressure(1, 2) == -30e3);
   CHECK(water.pore_pressure(3.5, 2) == 0);
   CHECK(water.pore_pressure(2.5, -9) == 0);

@@ -161,7 +161,7 @@ TEST_CASE("frames are also due at given times", "[output]") {
   CHECK(due == std::vector<int>{0, 12, 50, 100});
 }
 
-// After a change of fields: unit_solver "[.write-docs]" writes the table anew.
+// After a change of fields: unit_solver "[.write-docs]" rewrites the table.
 TEST_CASE("the documentation's tables of fields are up to date") {
   const std::string page = contents(format_page);
   CHECK(page.find(table_begin + documented_fields() + table_end) != std::string::npos);

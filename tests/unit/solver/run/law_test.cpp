@@ -98,8 +98,8 @@ TEST_CASE("a stress along an interface stays near the strength of soil that yiel
   scene.soils[1].velocity = Point(1.5, 0);
   const double cohesion = 2e3;
   Simulation simulation(scene);
-  simulation.set_law(
-      "upper", DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(15e6, 0.45), cohesion, 0));
+  simulation.set_law("upper",
+                     DruckerPrager::from_mohr_coulomb(LinearElastic::from_young(15e6, 0.45), cohesion, 0));
   double most = 0;
   for (int i = 0; i < 600; ++i) {
     simulation.advance();
