@@ -11,6 +11,7 @@
 #include "app/results.hpp"
 #include "app/say.hpp"
 #include "app/shipped_cases.hpp"
+#include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/printable.hpp"
 #include "solver/reference/limit_equilibrium/section_of_case.hpp"
@@ -187,18 +188,23 @@ int safety_command(const Arguments& arguments) {
   if (!o->force) check_owner(folder, case_text, true);
   SafetyAnswer answer;
   answer.title = scene.title;
+  answer.warnings = warnings_of(scene);
+  warn(answer.warnings);
   if (!scene.water.flows()) find_by_limit_equilibrium(scene, answer);
   if (!answer.limit_equilibrium && !o->by_particles())
     throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
   if (o->by_particles()) find_by_particles(scene, *o, answer);
   if (is_interrupted()) return Exit::interrupted;
   if (!o->by_limit_equilibrium()) answer.limit_equilibrium.reset();
+  const std::string apart = disagreement(answer);
+  if (!apart.empty()) answer.warnings.push_back(apart);
   take_folder(folder, case_text);
   write(scene, answer, folder);
   if (!o->quiet) {
     tell(answer);
     say(stdout, folder.string() + "\n");
   }
+  if (!apart.empty()) warn({apart});
   return Exit::done;
 }
 

@@ -64,6 +64,32 @@ TEST_CASE("a factor of safety comes with both numbers, its curve and its mechani
   CHECK_THAT(text_of(place.folder() / "found/safety.csv"), Contains("at rest") && Contains("moved far"));
 }
 
+TEST_CASE("a weak seam in which the particles hardly slide is warned of") {
+  const Workplace place;
+  std::string seam = slope;
+  const auto soils = seam.find("[[soil]]"), boundaries = seam.find("[[boundary]]");
+  const auto soil = [](const std::string& name, const std::string& polygon, const std::string& strength) {
+    return "[[soil]]\nname = \"" + name + "\"\npolygon = " + polygon +
+           "\nyoungs_modulus = 100e6\npoissons_ratio = 0.3\nunit_weight_saturated = 20e3\n"
+           "law = \"mohr_coulomb\"\n" +
+           strength;
+  };
+  const std::string loam = "cohesion = 30e3\nfriction_angle = 20\n";
+  seam.replace(
+      soils, boundaries - soils,
+      soil("below", "[[0, 0], [32, 0], [28, 2], [0, 2]]", loam) +
+          soil("seam", "[[0, 2], [28, 2], [26, 3], [0, 3]]", "cohesion = 1e3\nfriction_angle = 5\n") +
+          soil("above", "[[0, 3], [26, 3], [12, 10], [0, 10]]", loam));
+  place.write("seam.toml", seam);
+  const Outcome outcome = place.porosph("safety seam.toml --bracket 0.1 --quiet --out found");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK_THAT(outcome.err, Contains("above the") && Contains("Spencer on any shape"));
+  CHECK_THAT(outcome.err, Contains("'seam'") && Contains("one row"));
+  const auto warnings = answer(place, "found")["warnings"];
+  CHECK(warnings.size() >= 2);
+}
+
 TEST_CASE("limit equilibrium stands alone, without a particle computed") {
   const Workplace place;
   place.write("slope.toml", slope);

@@ -1,5 +1,8 @@
 #include "vtk_io/run_folder/safety_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -86,11 +89,35 @@ void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& 
   write_file(file, csv);
 }
 
+std::string disagreement(const SafetyAnswer& answer) {
+  constexpr double tolerable = 0.05;
+  if (!answer.particles || !answer.limit_equilibrium) return "";
+  const std::vector<NamedSurface> surfaces = slip_surfaces(answer);
+  const NamedSurface& least =
+      *std::ranges::min_element(surfaces, {}, [](const NamedSurface& s) { return s.surface.factor; });
+  const double factor = least.surface.factor, stable = answer.particles->stable_at,
+               fails = answer.particles->fails_at;
+  if (stable > (1 + tolerable) * factor)
+    return fmt::format(
+        "the particles still stand at {:.4g}, {:.0f} % above the {:.4g} of limit equilibrium ({}): a layer "
+        "of "
+        "few rows of particles hardly slides in them. Take the smaller factor, or a particles.spacing that "
+        "gives weak layers four rows",
+        stable, 100 * (stable / factor - 1), factor, least.name);
+  if (fails < (1 - tolerable) * factor)
+    return fmt::format(
+        "the particles fail at {:.4g}, {:.0f} % below the {:.4g} of limit equilibrium ({}): look at "
+        "mechanism.png for how they fail, and take the smaller factor",
+        fails, 100 * (1 - fails / factor), factor, least.name);
+  return "";
+}
+
 void write_safety_summary(const std::filesystem::path& file, const SafetyAnswer& answer) {
   Json json;
   json["title"] = printable(answer.title);
   if (answer.particles) json["strength_reduction"] = strength_reduction_json(answer);
   if (answer.limit_equilibrium) json["limit_equilibrium"] = limit_equilibrium_json(answer);
+  if (!answer.warnings.empty()) json["warnings"] = answer.warnings;
   write_file(file, json.dump(2) + "\n");
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/reference/limit_equilibrium/search.hpp"
 #include "solver/run/strength_reduction.hpp"
@@ -15,6 +16,7 @@ struct SafetyAnswer {
   std::string title;
   std::optional<StrengthReduction> particles;
   std::optional<limit_equilibrium::CriticalSurfaces> limit_equilibrium;
+  std::vector<std::string> warnings;
   double particle_seconds = 0, limit_equilibrium_seconds = 0;  ///< of wall time
 };
 
@@ -27,6 +29,9 @@ std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer);
 
 /// "at rest", "moved far", ...
 std::string_view words_of(TrialEnd end);
+
+/// Says so where the two methods are more than 5 % apart; empty where they agree, or one is missing.
+std::string disagreement(const SafetyAnswer& answer);
 
 /// factor, largest displacement, unbalanced force ratio, steps and end of each trial, by the factor. Throws
 /// WriteError.
