@@ -102,7 +102,7 @@ std::string disagreement(const SafetyAnswer& answer) {
         "the particles still stand at {:.4g}, {:.0f} % above the {:.4g} of limit equilibrium ({}): a layer "
         "of "
         "few rows of particles hardly slides in them. Take the smaller factor, or a particles.spacing that "
-        "gives weak layers four rows",
+        "gives weak layers two rows or more",
         stable, 100 * (stable / factor - 1), factor, least.name);
   if (fails < (1 - tolerable) * factor)
     return fmt::format(
