@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/memory.hpp"
 #include "app/shipped_cases.hpp"
+#include "app/stopwatch.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
@@ -26,15 +26,6 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr double most_tried = 5e4, tried_instead = 1e4;  // particles: more take long to place and to step
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Measured on the first steps of the case itself [s per step].
 double seconds_per_step(Simulation& s) {

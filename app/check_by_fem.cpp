@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "app/memory.hpp"
+#include "app/stopwatch.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/reference/fem/compare.hpp"
 #include "solver/reference/fem/demand.hpp"
@@ -69,11 +69,11 @@ FemCheck skipped(std::string reason) {
 
 FemCheck compare([[maybe_unused]] Simulation& s, [[maybe_unused]] double edge) {
 #ifdef POROSPH_HAS_VTK
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Particles& particles = s.model().particles;
   FemCheck check = compare_with_fem(s.scene(), particles, solve_fem(s.scene(), mesh_case(s.scene(), edge)));
   check.warnings = fem_warnings(s.scene(), particles, check);
-  check.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  check.seconds = watch.seconds();
   return check;
 #else
   return {};

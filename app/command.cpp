@@ -8,6 +8,24 @@
 
 namespace porosph::app {
 
+const char* meaning_of(Exit status) {
+  switch (status) {
+    case done:
+      return "done";
+    case failed_threshold:
+      return "a threshold of a report failed";
+    case wrong_input:
+      return "the command line or the case is wrong";
+    case unstable:
+      return "the run became unstable; its files up to then are kept";
+    case file_failure:
+      return "a file could not be read or written";
+    case interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
 namespace po = boost::program_options;
 
 namespace {

@@ -19,6 +19,9 @@ enum Exit : int {
   file_failure = 4,
   interrupted = 130
 };
+inline constexpr Exit exits[] = {done, failed_threshold, wrong_input, unstable, file_failure, interrupted};
+/// What a status says, in a few words.
+const char* meaning_of(Exit status);
 
 struct Command {
   std::string name, summary;

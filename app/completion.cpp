@@ -9,7 +9,7 @@
 #include "app/shipped_cases.hpp"
 #include "solver/analysis/derived_fields.hpp"
 #include "solver/case/case_keys.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 namespace porosph::app {
 namespace {

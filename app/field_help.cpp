@@ -1,7 +1,7 @@
 #include "app/field_help.hpp"
 
 #include "solver/analysis/derived_fields.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 namespace porosph::app {
 

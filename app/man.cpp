@@ -35,49 +35,39 @@ std::string section_of(const Command& command) {
   return text + ".PP\nExamples:\n" + verbatim(help.examples);
 }
 
-constexpr const char* tail = R"(.SH FILES
-.TP
-.I particles.pvd, frames/
-the particles of a run over time, for ParaView
-.TP
-.I open_in_paraview.py, compare_in_paraview.py
-show a run there, or two of them side by side
-.TP
-.I history.csv
-probes over time
-.TP
-.I summary.json
-how the run ended, its speed, memory, final values and errors
-.TP
-.I case.toml
-the case as run, with all defaults and overrides
-.SH ENVIRONMENT
-.TP
-.B NO_COLOR
-if set and not empty, no colours are printed; without it they are on a terminal only
-.TP
-.B POROSPH_FONT
-a TrueType file for the text in pictures
-.SH EXIT STATUS
-.TP
-.B 0
-done
-.TP
-.B 1
-a threshold of a report failed
-.TP
-.B 2
-the command line or the case is wrong
-.TP
-.B 3
-the run became unstable; its files up to then are kept
-.TP
-.B 4
-a file could not be read or written
-.TP
-.B 130
-interrupted
-)";
+struct Entry {
+  std::string name, meaning;
+};
+
+// A test holds both lists against what a run writes and what the sources read.
+const std::vector<Entry> files = {
+    {"particles.pvd, frames/", "the particles of a run over time, for ParaView"},
+    {"open_in_paraview.py, compare_in_paraview.py", "show a run there, or two of them side by side"},
+    {"history.csv", "probes over time"},
+    {"summary.json", "how the run ended, its speed, memory, final values and errors"},
+    {"case.toml", "the case as run, with all defaults and overrides"},
+    {"checkpoint.bin", "the state from which the run can be resumed"}};
+const std::vector<Entry> environment = {
+    {"NO_COLOR", "if set and not empty, no colours are printed; without it they are on a terminal only"},
+    {"TERM", "no colours are printed where it is dumb"},
+    {"POROSPH_FONT", "a TrueType file for the text in pictures"},
+    {"POROSPH_VECTOR_UNITS", "portable, avx2 or avx512: the vector units to compute with, for comparison"},
+    {"SOURCE_DATE_EPOCH", "seconds since 1970 that reports name as the time of their making"}};
+
+std::string list_of(const std::vector<Entry>& entries, char font) {
+  std::string text;
+  for (const Entry& e : entries)
+    text += fmt::format(".TP\n.{} {}\n{}\n", font, escaped(e.name), escaped(e.meaning));
+  return text;
+}
+
+std::string tail() {
+  std::vector<Entry> statuses;
+  for (const Exit status : exits)
+    statuses.push_back({fmt::format("{}", static_cast<int>(status)), meaning_of(status)});
+  return ".SH FILES\n" + list_of(files, 'I') + ".SH ENVIRONMENT\n" + list_of(environment, 'B') +
+         ".SH EXIT STATUS\n" + list_of(statuses, 'B');
+}
 
 }  // namespace
 
@@ -96,7 +86,7 @@ int man_command(const Arguments& arguments) {
       "TOML file; all numbers are in SI units, stress is positive in tension.\n.SH SUBCOMMANDS\n",
       POROSPH_VERSION);
   for (const Command& command : all_commands()) fmt::print("{}", section_of(command));
-  fmt::print("{}", tail);
+  fmt::print("{}", tail());
   return Exit::done;
 }
 

@@ -1,16 +1,16 @@
 // porosph safety: the factor of safety of a case, by the particles and by limit equilibrium.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <thread>
 
 #include "app/command.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
 #include "app/say.hpp"
 #include "app/shipped_cases.hpp"
+#include "app/stopwatch.hpp"
+#include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/printable.hpp"
@@ -54,12 +54,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "bracket", po::value(&o.bracket)->value_name("WIDTH")->default_value(0.01, "0.01"),
       "how close to each other the factors shall be at which the body rests and fails")(
       "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
-      "replaces a setting of the case; may be given again")(
-      "jobs",
-      po::value(&o.jobs)->value_name("N")->default_value(
-          static_cast<int>(std::thread::hardware_concurrency())),
-      "factors tried at a time, each on one core")("force", "replace another case's results")(
-      "quiet", "say nothing unless something is wrong");
+      "replaces a setting of the case; may be given again");
+  add_jobs(options, o.jobs, "factors tried at a time");
+  options.add_options()("force", "replace another case's results")("quiet",
+                                                                   "say nothing unless something is wrong");
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
@@ -74,20 +72,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
                                  printable(o.method)));
   if (!(o.bracket >= 1e-4 && o.bracket <= 1))
     throw UsageError(fmt::format("--bracket = {}: must be from 0.0001 to 1", o.bracket));
-  if (o.jobs < 1 || o.jobs > 1024)
-    throw UsageError(fmt::format("--jobs = {}: must be from 1 to 1024", o.jobs));
+  check_jobs(o.jobs);
   o.quiet = values.count("quiet") > 0, o.force = values.count("force") > 0;
   return o;
 }
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 void check_soils(const Case& scene) {
   if (!scene.loading.gravity_applied)

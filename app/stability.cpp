@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <thread>
 
 #include "app/command.hpp"
 #include "app/interruption.hpp"
 #include "app/say.hpp"
+#include "app/threads.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/sweep/run_sweep.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
@@ -76,12 +76,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
                 "largest relative L2 error called accurate (default: the sweep's, or 0.02)")(
       "settled-below", po::value<double>()->value_name("RATIO"),
       "largest unbalanced force ratio at rest (default: the sweep's, or 0.001)")(
-      "quick", "the few values that a sweep file names for a quick look")(
-      "jobs",
-      po::value(&o.jobs)->value_name("N")->default_value(
-          static_cast<int>(std::thread::hardware_concurrency())),
-      "runs at a time, each on one core")("restart", "computes again what is there")(
-      "quiet", "say nothing unless something is wrong")(
+      "quick", "the few values that a sweep file names for a quick look");
+  add_jobs(options, o.jobs, "runs at a time");
+  options.add_options()("restart", "computes again what is there")("quiet",
+                                                                   "say nothing unless something is wrong")(
       "out", po::value(&folder)->value_name("DIR")->default_value("results/stability"),
       "folder for index.html and <sweep>.csv, <sweep>.png; runs that are there already are kept");
   po::positional_options_description positional;
@@ -96,8 +94,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (files.empty() == (values.count("case") == 0) || files.empty() == vary.empty())
     throw UsageError(
         "stability needs sweep files, or --case with --vary; porosph stability --help shows both");
-  if (o.jobs < 1 || o.jobs > 1024)
-    throw UsageError(fmt::format("--jobs = {}: must be from 1 to 1024", o.jobs));
+  check_jobs(o.jobs);
   for (const std::string& file : files) o.sweeps.push_back(read_sweep(file, values.count("quick") > 0));
   if (files.empty()) o.sweeps.push_back(sweep_of_flags(values, vary));
   for (Sweep& sweep : o.sweeps) change_by_flags(sweep, values, overrides);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/legend.hpp"
+#include "solver/boundary/support.hpp"
 
 namespace porosph {
 
@@ -112,7 +113,7 @@ void draw_water_table(Canvas& canvas, const Plot& plot, const std::vector<Point>
   canvas.line(line, {.colour = water_blue, .width = 1.3, .dashes = {6, 4}});
 }
 
-struct Support {
+struct DrawnWall {
   Pixel from, to;
   Pixel along, away;  ///< unit vectors; `away` points away from the soil
   double length;
@@ -152,24 +153,24 @@ std::pair<Pixel, Pixel> cut(Pixel a, Pixel b, const Box& box) {
   return {at(low), at(high)};
 }
 
-Support support(const Plot& plot, const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
+DrawnWall drawn_wall(const Plot& plot, const std::vector<SoilOutline>& soils, const BoundaryCase& boundary) {
   const auto [from, to] =
       cut(plot.at(boundary.from.x(), boundary.from.y()), plot.at(boundary.to.x(), boundary.to.y()), plot.box);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  Support result{from, to, {(to.x - from.x) / length, (to.y - from.y) / length}, {}, length};
+  DrawnWall result{from, to, {(to.x - from.x) / length, (to.y - from.y) / length}, {}, length};
   const double side = soil_is_left(soils, boundary) ? -1 : 1;
   result.away = {-side * result.along.y, side * result.along.x};
   return result;
 }
 
-void draw_fixed(Canvas& canvas, const Support& wall) {
+void draw_fixed(Canvas& canvas, const DrawnWall& wall) {
   constexpr double spacing = 9, depth = 8;
   canvas.line(wall.from, wall.to, {.colour = outline_grey, .width = 1.6});
   for (double s = 0.5 * spacing; s < wall.length; s += spacing)
     canvas.line(wall.at(s, 0), wall.at(std::max(0., s - depth), depth), {.colour = outline_grey, .width = 1});
 }
 
-void draw_rollers(Canvas& canvas, const Support& wall) {
+void draw_rollers(Canvas& canvas, const DrawnWall& wall) {
   constexpr double radius = 3.5, spacing = 30;
   const int count = std::max(2, static_cast<int>(wall.length / spacing));
   for (int i = 0; i < count; ++i)
@@ -181,9 +182,9 @@ void draw_rollers(Canvas& canvas, const Support& wall) {
 
 void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
                   const BoundaryCase& boundary) {
-  const Support wall = support(plot, soils, boundary);
+  const DrawnWall wall = drawn_wall(plot, soils, boundary);
   if (!(wall.length > 0)) return;
-  if (boundary.kind == BoundaryKind::fixed)
+  if (support_of(boundary.kind).carries_shear())
     draw_fixed(canvas, wall);
   else
     draw_rollers(canvas, wall);

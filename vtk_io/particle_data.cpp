@@ -17,7 +17,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 namespace porosph {
 namespace {

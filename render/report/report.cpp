@@ -312,6 +312,122 @@ std::string markdown_summary(const ReportInput& input, const std::vector<LoadedR
   return text + html::escaped(input.made) + "\n";
 }
 
+/// All that the page is made of.
+struct Material {
+  const ReportInput& input;
+  const fs::path& folder;
+  std::vector<std::string> labels;
+  std::vector<LoadedRun> runs;
+  std::vector<std::vector<FieldNorms>> fem;
+  std::vector<Json> summaries;
+  Checked checked;
+  std::vector<std::string> warnings;
+
+  const Case& scene() const { return *runs.front().run.scene; }
+};
+
+Material load(const ReportInput& input, const fs::path& folder) {
+  Material m{input, folder, run_labels(input.runs), {}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < input.runs.size(); ++i) {
+    const std::size_t last = input.runs[i].series.frames.size() - 1;
+    m.runs.push_back({input.runs[i], m.labels[i], frame_of(input.runs[i], last)});
+  }
+  m.fem.resize(m.runs.size());
+  for (std::size_t i = 0; i < m.runs.size(); ++i) {
+    if (input.fem) m.fem[i] = fem_norms(m.runs[i].last, *input.fem, input.left_out);
+    m.summaries.push_back(summary_json(m.runs[i], m.fem[i]));
+  }
+  m.checked = check_all(input.thresholds, m.runs, m.summaries);
+  for (const std::string& w : m.checked.failed) m.warnings.push_back("Threshold failed: " + w);
+  for (const LoadedRun& r : m.runs)
+    for (std::string& w : warnings_of(r)) m.warnings.push_back(std::move(w));
+  return m;
+}
+
+std::string head_of(const Material& m) {
+  return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
+         html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
+                                   m.runs.front().run.summary->particles, fmt::join(m.labels, ", "))) +
+         "</p>\n" + (m.input.made.empty() ? "" : html::paragraph(m.input.made));
+}
+
+std::string stress_sections(const Material& m) {
+  const FieldSelection vertical{"EffectiveStress", "YY"};
+  std::vector<ReportPicture> contours;
+  for (const FieldSelection& field :
+       {FieldSelection{"TotalStress", "YY"}, vertical, FieldSelection{"Displacement", "Y"}})
+    if (all_have(m.runs, field)) contours.push_back(draw_contours(m.runs, m.input.fem, field, m.folder));
+  const bool has_vertical = all_have(m.runs, vertical);
+  if (has_vertical)
+    if (auto picture = draw_differences(m.runs, m.input.fem, m.input.left_out, vertical, m.folder))
+      contours.push_back(std::move(*picture));
+  std::string body = html::section("Stress and displacement", pictures_of(contours));
+  if (has_vertical)
+    if (auto picture = draw_sections(m.runs, m.input.fem, m.folder))
+      body += html::section("Stress with height", pictures_of({std::move(*picture)}) +
+                                                      "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
+  return body;
+}
+
+std::string probe_section(const Material& m) {
+  std::vector<ReportPicture> histories;
+  if (auto picture = draw_histories(m.input.runs, m.labels, m.folder))
+    histories.push_back(std::move(*picture));
+  if (m.input.fem)
+    for (const ProbeCase& probe : m.scene().probes)
+      if (auto picture = draw_probe(m.runs, *m.input.fem, probe, m.folder))
+        histories.push_back(std::move(*picture));
+  if (m.scene().probes.empty()) return "";
+  return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
+}
+
+std::string difference_sections(const Material& m) {
+  std::string body;
+  if (const Rows rows = error_table(m.runs); rows.size() > 1)
+    body += html::section(
+        "Errors against the exact solution",
+        "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
+  std::vector<Summary> told;
+  for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+  body += fem_check_section(m.labels, told);
+  if (m.input.fem) {
+    std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
+    for (const LeftOut& o : m.input.left_out)
+      text += html::escaped(
+          fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
+    body += html::section("Differences from finite elements",
+                          text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
+  }
+  if (!m.input.thresholds.empty()) body += html::section("Thresholds", html::table(m.checked.rows, false));
+  return body;
+}
+
+std::string development_section(const Material& m) {
+  std::vector<ReportPicture> developments;
+  for (const LoadedRun& r : m.runs)
+    if (all_have({r}, {"EffectiveStress", "YY"}) && r.run.series.frames.size() > 2)
+      developments.push_back(draw_development(r, {"EffectiveStress", "YY"}, m.folder));
+  return developments.empty() ? "" : html::section("How the stress develops", pictures_of(developments));
+}
+
+std::string body_of(const Material& m) {
+  std::string body = html::section("Runs", html::table(run_table(m.runs)));
+  body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
+  body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
+  if (const Rows rows = settings_table(m.runs); rows.size() > 1)
+    body += html::section("Settings that differ", html::table(rows, false));
+  for (std::size_t i = 0; i < m.input.studies.size(); ++i)
+    body += study_section(m.input.studies[i], m.folder, fmt::format("study_{}_", i + 1));
+  return body + html::section("How to reproduce", how_to_reproduce(m.input, m.runs));
+}
+
+Json json_of(const Material& m) {
+  Json json = {{"runs", Json::object()}, {"thresholds", m.checked.json}, {"warnings", m.warnings}};
+  for (std::size_t i = 0; i < m.runs.size(); ++i) json["runs"][m.runs[i].label] = m.summaries[i];
+  for (const fs::path& study : m.input.studies) json["studies"].push_back(to_json(read_study(study)));
+  return json;
+}
+
 }  // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
@@ -319,96 +435,18 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   for (const fs::path& study : input.studies) read_study(study);  // before anything is drawn
   if (input.fem)
     for (const FinishedRun& run : input.runs) require_same_problem(run, *input.fem);
-  const std::vector<std::string> labels = run_labels(input.runs);
-  std::vector<LoadedRun> runs;
-  for (std::size_t i = 0; i < input.runs.size(); ++i)
-    runs.push_back(
-        {input.runs[i], labels[i], frame_of(input.runs[i], input.runs[i].series.frames.size() - 1)});
-  std::vector<std::vector<FieldNorms>> fem(runs.size());
-  std::vector<Json> summaries;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (input.fem) fem[i] = fem_norms(runs[i].last, *input.fem, input.left_out);
-    summaries.push_back(summary_json(runs[i], fem[i]));
-  }
-  const Checked checked = check_all(input.thresholds, runs, summaries);
+  const Material m = load(input, folder);
   make_folder(folder);
 
-  const Case& scene = *runs.front().run.scene;
-  const std::string head =
-      "<h1>" + html::escaped(scene.title) + "</h1>\n<p class=\"lead\">" +
-      html::escaped(fmt::format("{} of {} particles: {}", runs.size() == 1 ? "A run" : "Runs",
-                                runs.front().run.summary->particles, fmt::join(labels, ", "))) +
-      "</p>\n" + (input.made.empty() ? "" : html::paragraph(input.made));
-  std::string body;
-  std::vector<std::string> warnings = checked.failed;
-  for (std::string& w : warnings) w = "Threshold failed: " + w;
-  for (const LoadedRun& r : runs)
-    for (std::string& w : warnings_of(r)) warnings.push_back(std::move(w));
   const std::string notes =
-      warnings.empty() ? "" : "<div class=\"warnings\" role=\"note\">" + list(warnings) + "</div>\n";
-  body += html::section("Runs", html::table(run_table(runs)));
-  body += html::section("The case", pictures_of({draw_case(runs.front(), folder)}));
-
-  std::vector<ReportPicture> contours;
-  for (const FieldSelection& field :
-       {FieldSelection{"TotalStress", "YY"}, FieldSelection{"EffectiveStress", "YY"},
-        FieldSelection{"Displacement", "Y"}})
-    if (all_have(runs, field)) contours.push_back(draw_contours(runs, input.fem, field, folder));
-  if (all_have(runs, {"EffectiveStress", "YY"}))
-    if (auto picture = draw_differences(runs, input.fem, input.left_out, {"EffectiveStress", "YY"}, folder))
-      contours.push_back(std::move(*picture));
-  body += html::section("Stress and displacement", pictures_of(contours));
-  if (all_have(runs, {"EffectiveStress", "YY"}))
-    if (auto picture = draw_sections(runs, input.fem, folder))
-      body += html::section("Stress with height", pictures_of({std::move(*picture)}) +
-                                                      "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
-
-  std::vector<ReportPicture> histories;
-  if (auto picture = draw_histories(input.runs, labels, folder)) histories.push_back(std::move(*picture));
-  if (input.fem)
-    for (const ProbeCase& probe : scene.probes)
-      if (auto picture = draw_probe(runs, *input.fem, probe, folder))
-        histories.push_back(std::move(*picture));
-  if (!scene.probes.empty())
-    body += html::section("Probes", pictures_of(histories) + html::table(probe_table(runs, input.fem)));
-
-  if (const Rows rows = error_table(runs); rows.size() > 1)
-    body += html::section(
-        "Errors against the exact solution",
-        "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
-  std::vector<Summary> told;
-  for (const LoadedRun& r : runs) told.push_back(*r.run.summary);
-  body += fem_check_section(labels, told);
-  if (input.fem) {
-    std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
-    for (const LeftOut& o : input.left_out)
-      text += html::escaped(
-          fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
-    body += html::section("Differences from finite elements",
-                          text + "</p>\n" + html::table(fem_table(runs, fem)));
-  }
-  if (!input.thresholds.empty()) body += html::section("Thresholds", html::table(checked.rows, false));
-
-  std::vector<ReportPicture> developments;
-  for (const LoadedRun& r : runs)
-    if (all_have({r}, {"EffectiveStress", "YY"}) && r.run.series.frames.size() > 2)
-      developments.push_back(draw_development(r, {"EffectiveStress", "YY"}, folder));
-  if (!developments.empty()) body += html::section("How the stress develops", pictures_of(developments));
-
-  if (const Rows rows = settings_table(runs); rows.size() > 1)
-    body += html::section("Settings that differ", html::table(rows, false));
-  for (std::size_t i = 0; i < input.studies.size(); ++i)
-    body += study_section(input.studies[i], folder, fmt::format("study_{}_", i + 1));
-  body += html::section("How to reproduce", how_to_reproduce(input, runs));
-  write_page(html::page(scene.title, head + notes + html::contents(body) + body), input.single_file, folder);
-
-  Json json = {{"runs", Json::object()}, {"thresholds", checked.json}, {"warnings", warnings}};
-  for (std::size_t i = 0; i < runs.size(); ++i) json["runs"][runs[i].label] = summaries[i];
-  for (const fs::path& study : input.studies) json["studies"].push_back(to_json(read_study(study)));
-  write_file(folder / "report.json", json.dump(2) + "\n");
+      m.warnings.empty() ? "" : "<div class=\"warnings\" role=\"note\">" + list(m.warnings) + "</div>\n";
+  const std::string body = body_of(m);
+  write_page(html::page(m.scene().title, head_of(m) + notes + html::contents(body) + body), input.single_file,
+             folder);
+  write_file(folder / "report.json", json_of(m).dump(2) + "\n");
   if (!input.summary.empty())
-    write_file(input.summary, markdown_summary(input, runs, fem, checked, warnings));
-  return checked.failed;
+    write_file(input.summary, markdown_summary(input, m.runs, m.fem, m.checked, m.warnings));
+  return m.checked.failed;
 }
 
 }  // namespace porosph

@@ -11,7 +11,7 @@
 #include "solver/analysis/frame_values.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 namespace porosph {
 namespace {

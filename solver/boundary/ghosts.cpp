@@ -10,6 +10,7 @@ std::vector<Image> images_of(std::span<const Wall> walls, std::size_t first, std
                              std::vector<Vec2>& points) {
   std::vector<Image> images;
   append_images(walls, first, last, range, points, images);
+  points.shrink_to_fit();  // of the whole body, and kept as long as the images are
   return images;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/case/flow_case.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 namespace porosph {
 

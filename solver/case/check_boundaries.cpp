@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "solver/boundary/support.hpp"
 #include "solver/case/shapes.hpp"
 
 namespace porosph {
@@ -130,9 +131,9 @@ std::vector<std::size_t> bodies(const Case& c, double tolerance) {
   return body;
 }
 
-/// Rollers hold only across themselves: an upright one carries nothing.
+/// Where the soil slides it is held only across: an upright boundary of that kind carries nothing.
 bool carries(const BoundaryCase& b, const SoilCase& soil, const Case& c, double tolerance) {
-  if (b.kind == BoundaryKind::roller && std::abs(unit(b).x()) < 1e-4) return false;
+  if (!support_of(b.kind).carries_shear() && std::abs(unit(b).x()) < 1e-4) return false;
   Case alone = c;
   alone.soils = {soil};
   return fault_along(alone, b, tolerance).empty();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/boundary/support.hpp"
 #include "solver/case/check_boundaries.hpp"
 #include "solver/case/check_flow.hpp"
 #include "solver/case/check_loads.hpp"
@@ -169,14 +170,14 @@ void check_probes(const Case& c, Issues& issues) {
   }
 }
 
-// Whether a boundary of this kind covers the segment from a to b.
-bool is_covered(const Case& c, const Point& a, const Point& b, BoundaryKind kind) {
+/// Whether one boundary covers the segment from a to b. `slides`: along which the soil may slide.
+bool is_covered(const Case& c, const Point& a, const Point& b, bool slides) {
   const double tolerance = 1e-3 * c.particles.spacing;
   return std::any_of(c.boundaries.begin(), c.boundaries.end(), [&](const BoundaryCase& boundary) {
     const auto reaches = [&](const Point& p) {
       return distance(p, p, boundary.from, boundary.to) < tolerance;
     };
-    return boundary.kind == kind && reaches(a) && reaches(b);
+    return slides != support_of(boundary.kind).carries_shear() && reaches(a) && reaches(b);
   });
 }
 
@@ -204,11 +205,9 @@ std::string column_fault(const Case& c) {
                             c.water.stretches[0].x_to < high.x()))
     return "needs one water level over the whole soil";
   const Point left_top(low.x(), high.y()), right_bottom(high.x(), low.y());
-  if (!is_covered(c, low, left_top, BoundaryKind::roller) ||
-      !is_covered(c, right_bottom, high, BoundaryKind::roller))
+  if (!is_covered(c, low, left_top, true) || !is_covered(c, right_bottom, high, true))
     return "needs rollers along both sides of the soil";
-  if (!is_covered(c, low, right_bottom, BoundaryKind::roller) &&
-      !is_covered(c, low, right_bottom, BoundaryKind::fixed))
+  if (!is_covered(c, low, right_bottom, true) && !is_covered(c, low, right_bottom, false))
     return "needs a boundary below the soil";
   return "";
 }

@@ -70,7 +70,7 @@ void declare_softening(Fields& f, bool frictional, bool undrained, StrengthCase&
   f.number(
       required_if(softens, "softening_length", "m",
                   "Width of the shear bands in which `softening_strain` holds. Bands are a few particles "
-                  "wide, so plastic strain counts by spacing over this length: results then do not hang "
+                  "wide, so plastic strain counts by spacing over this length: results then do not depend "
                   "on the spacing.",
                   condition),
       c.softening_length, above(0, farthest));

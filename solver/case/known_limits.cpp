@@ -10,7 +10,8 @@
 namespace porosph {
 namespace {
 
-// Each number with the sweep in cases/stability that it was read from.
+// Each number with the sweep in cases/stability that it was read from. tests/stability/known_limits_test.cpp
+// computes those sweeps on both sides of it.
 constexpr double largest_courant =
     1.0;  // courant_control: 1.1 fails with the default control, as 1.2 does with any
 constexpr double largest_courant_paper = 1.1;  // courant_formulation

@@ -78,41 +78,42 @@ Cells cells_of(const Case& scene, const std::vector<Region>& regions, FreeSurfac
   return {bands_along(0, scene, regions, free_surfaces), bands_along(1, scene, regions, free_surfaces)};
 }
 
-}  // namespace
-
-std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions) {
-  const Cells cells = cells_of(scene, regions, FreeSurfaces::in_the_middle);
+/// Cuts all soils into cells; place(site, cell, whole, at_middle) settles the site of each piece, `whole` the
+/// area of an uncut cell.
+template <class Place>
+std::vector<CellSite> arrange(const Case& scene, const std::vector<Region>& regions, const Cells& cells,
+                              Place&& place) {
   std::vector<CellSite> sites;
   std::vector<char> at_middle;
   for (std::size_t soil = 0; soil < regions.size(); ++soil)
     for (const Piece& piece :
          join_slivers(cut_cells(cells, regions[soil], scene.particles.spacing, at_middle))) {
       Site site{piece.centroid, piece.area, static_cast<int>(soil)};
-      if (at_middle[piece.cell]) {
-        const double whole = cells.area(piece.cell);
-        site.position = cells.middle(piece.cell);
-        if (std::abs(site.area - whole) < round_off * whole) site.area = whole;  // all alike, to the last bit
-        site.fill = site.area / whole;
-      }
+      place(site, piece.cell, cells.area(piece.cell), at_middle[piece.cell] != 0);
       sites.push_back({piece.cell, site});
     }
   return sites;
 }
 
+bool is_whole(const Site& site, double whole) { return std::abs(site.area - whole) < round_off * whole; }
+
+}  // namespace
+
+std::vector<CellSite> arrange_surface(const Case& scene, const std::vector<Region>& regions) {
+  const Cells cells = cells_of(scene, regions, FreeSurfaces::in_the_middle);
+  return arrange(scene, regions, cells, [&](Site& site, int cell, double whole, bool at_middle) {
+    if (!at_middle) return;
+    site.position = cells.middle(cell);
+    if (is_whole(site, whole)) site.area = whole;  // all alike, to the last bit
+    site.fill = site.area / whole;
+  });
+}
+
 std::vector<CellSite> arrange_stretched(const Case& scene, const std::vector<Region>& regions) {
   const Cells cells = cells_of(scene, regions, FreeSurfaces::at_ends);
-  std::vector<CellSite> sites;
-  std::vector<char> at_middle;
-  for (std::size_t soil = 0; soil < regions.size(); ++soil)
-    for (const Piece& piece :
-         join_slivers(cut_cells(cells, regions[soil], scene.particles.spacing, at_middle))) {
-      Site site{piece.centroid, piece.area, static_cast<int>(soil)};
-      const double whole = cells.area(piece.cell);
-      if (std::abs(site.area - whole) < round_off * whole)
-        site.area = whole, site.position = cells.middle(piece.cell);
-      sites.push_back({piece.cell, site});
-    }
-  return sites;
+  return arrange(scene, regions, cells, [&](Site& site, int cell, double whole, bool) {
+    if (is_whole(site, whole)) site.area = whole, site.position = cells.middle(cell);
+  });
 }
 
 }  // namespace porosph

@@ -8,7 +8,7 @@
 
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 #include "solver/run/reference_errors.hpp"
 
 namespace porosph {

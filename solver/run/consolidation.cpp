@@ -27,70 +27,71 @@ double rms(std::span<const double> x) {
                    static_cast<double>(x.size()));
 }
 
-/// With every kr = 1: heads are excess heads, measured from the level of the water that stands.
-DarcyFlow saturated_flow(const Case& scene, const HydraulicOutline& outline, const Particles& p) {
-  const std::vector<double> below(p.size(), -1e9);
-  return {make_flow_pairs(scene.soils, outline, p, scene.particles.spacing), outline,
-          std::vector<Retention>(scene.soils.size()), p.soil, below};
-}
-
 }  // namespace
 
+/// With every kr = 1: heads are excess heads, measured from the level of the water that stands.
+Consolidation::Drainage Consolidation::drainage(const Case& scene, const Particles& p) {
+  const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
+  const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
+  const std::vector<double> below(p.size(), -1e9);
+  Drainage d{.outline = outline,
+             .faces = FaceConditions(outline, faces, true),
+             .flow = {make_flow_pairs(scene.soils, outline, p, scene.particles.spacing), outline,
+                      std::vector<Retention>(scene.soils.size()), p.soil, below}};
+  d.pinned = d.flow.pinning_patches(d.faces);
+  return d;
+}
+
 Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics, double dt)
-    : model_(model),
-      dynamics_(dynamics),
-      dt_(dt),
+    : soil_{.model = model, .dynamics = dynamics, .dt = dt},
       settings_(scene.water.coupling),
       unit_weight_(scene.water.unit_weight),
-      outline_(hydraulic_outline(scene.soils, faces_of_excess(scene), scene.particles.spacing)),
-      faces_(outline_, faces_of_excess(scene), true),
-      flow_(saturated_flow(scene, outline_, model.particles)) {
+      drainage_(drainage(scene, model.particles)) {
   const Particles& p = model.particles;
   const std::size_t n = p.size();
   double fastest = 0;
   for (std::size_t a = 0; a < n; ++a) {
     const SoilCase& soil = scene.soils[p.soil[a]];
     const double volume = p.volume(a), modulus = model.soils[p.soil[a]].constrained_modulus();
-    start_volume_.push_back(volume);
+    of_.start_volume.push_back(volume);
     const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
-    storage_.push_back(unit_weight_ * porosity * volume / scene.water.coupling.bulk_modulus);
-    split_.push_back(unit_weight_ * volume / modulus);
+    of_.storage.push_back(unit_weight_ * porosity * volume / scene.water.coupling.bulk_modulus);
+    of_.split.push_back(unit_weight_ * volume / modulus);
     fastest = std::max(fastest, soil.permeability.maxCoeff() * modulus / unit_weight_);
   }
-  pinned_ = flow_.pinning_patches(faces_);
-  head_.assign(n, 0), water_.assign(n, 0);
-  inflow_.resize(n), residual_.resize(n), change_.resize(n);
-  accelerations_.resize(n);
+  of_.head.assign(n, 0), of_.water.assign(n, 0);
+  of_.inflow.resize(n), of_.residual.resize(n), of_.change.resize(n);
+  soil_.accelerations.resize(n);
   Vec2 low = p.position.front(), high = low;
   for (const Vec2& x : p.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  extent_ = (high - low).maxCoeff();
-  step_ = settings_.first_step > 0 ? settings_.first_step : model.spacing * model.spacing / fastest;
+  soil_.extent = (high - low).maxCoeff();
+  progress_.step = settings_.first_step > 0 ? settings_.first_step : model.spacing * model.spacing / fastest;
 }
 
 double Consolidation::volume_gained(std::size_t a) const {
-  return model_.particles.volume(a) - start_volume_[a];
+  return soil_.model.particles.volume(a) - of_.start_volume[a];
 }
 
 double Consolidation::imbalance() const {
-  double missing = -drained_;
-  for (std::size_t a = 0; a < head_.size(); ++a) missing -= water_[a];
+  double missing = -progress_.drained;
+  for (std::size_t a = 0; a < of_.head.size(); ++a) missing -= of_.water[a];
   return missing;
 }
 
 /// While the soil moves, sigma' + p_e is its stress, and p_w that of the water that stands.
 void Consolidation::take_up_pressure() {
-  Particles& p = model_.particles;
+  Particles& p = soil_.model.particles;
   for (std::size_t a = 0; a < p.size(); ++a) {
-    const double excess = -unit_weight_ * head_[a];
+    const double excess = -unit_weight_ * of_.head[a];
     p.stress[a] = p.stress[a].plus_isotropic(excess);
     p.pore_pressure[a] -= excess;
   }
 }
 
 void Consolidation::give_back_pressure() {
-  Particles& p = model_.particles;
+  Particles& p = soil_.model.particles;
   for (std::size_t a = 0; a < p.size(); ++a) {
-    const double excess = -unit_weight_ * head_[a];
+    const double excess = -unit_weight_ * of_.head[a];
     p.stress[a] = p.stress[a].plus_isotropic(-excess);
     p.pore_pressure[a] += excess;
   }
@@ -98,88 +99,91 @@ void Consolidation::give_back_pressure() {
 
 /// RMS of the forces per volume, over the pressure per extent of the body [-].
 double Consolidation::out_of_balance() const {
-  const Particles& p = model_.particles;
+  const Particles& p = soil_.model.particles;
   const double squares = deterministic_sum(
-      p.size(), [&](std::size_t a) { return (p.density[a] * accelerations_[a]).squaredNorm(); });
-  return std::sqrt(squares / static_cast<double>(p.size())) * extent_ / (unit_weight_ * scale_);
+      p.size(), [&](std::size_t a) { return (p.density[a] * soil_.accelerations[a]).squaredNorm(); });
+  return std::sqrt(squares / static_cast<double>(p.size())) * soil_.extent / (unit_weight_ * progress_.scale);
 }
 
 void Consolidation::relax(int sweeps, double time) {
-  Particles& p = model_.particles;
+  Particles& p = soil_.model.particles;
   for (int k = 0; k <= sweeps; ++k) {
-    dynamics_.prepare();
-    dynamics_.accelerations(accelerations_);
-    add_loads(model_.loads, p, time, accelerations_);
-    if (!before_.empty()) relaxation_.measure(p, before_, accelerations_, dt_);
-    before_.clear();
+    soil_.dynamics.prepare();
+    soil_.dynamics.accelerations(soil_.accelerations);
+    add_loads(soil_.model.loads, p, time, soil_.accelerations);
+    if (!soil_.before.empty()) soil_.relaxation.measure(p, soil_.before, soil_.accelerations, soil_.dt);
+    soil_.before.clear();
     if (k == sweeps) return;
-    if (counts_.soil_sweeps % Relaxation::steps_between == 0) before_ = accelerations_;
-    const Kick kick = full_kick(relaxation_.damping, dt_);
+    if (counts_.soil_sweeps % Relaxation::steps_between == 0) soil_.before = soil_.accelerations;
+    const Kick kick = full_kick(soil_.relaxation.damping, soil_.dt);
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] = kick(p.velocity[a], accelerations_[a]);
-      p.position[a] += dt_ * p.velocity[a];
+      p.velocity[a] = kick(p.velocity[a], soil_.accelerations[a]);
+      p.position[a] += soil_.dt * p.velocity[a];
     }
-    model_.pore_water->follow(model_.water, p, 0, p.size());
-    dynamics_.strain(dt_);
+    soil_.model.pore_water->follow(soil_.model.water, p, 0, p.size());
+    soil_.dynamics.strain(soil_.dt);
     ++counts_.soil_sweeps;
   }
 }
 
 /// (S + beta + tau H) change = known - dV - S h + tau R(h)
 void Consolidation::solve_flow(std::span<const double> known, double tau) {
-  flow_.assemble(head_, faces_, DarcyFlow::Slope::secant, slope_, inflow_);
-  for (std::size_t a = 0; a < head_.size(); ++a) {
-    residual_[a] =
-        pinned_[a] >= 0 ? 0 : known[a] - volume_gained(a) - storage_[a] * head_[a] + tau * inflow_[a];
-    slope_.diagonal[a] = tau * slope_.diagonal[a] + storage_[a] + split_[a];
+  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+    of_.residual[a] = drainage_.pinned[a] >= 0
+                          ? 0
+                          : known[a] - volume_gained(a) - of_.storage[a] * of_.head[a] + tau * of_.inflow[a];
+    drainage_.slope.diagonal[a] = tau * drainage_.slope.diagonal[a] + of_.storage[a] + of_.split[a];
   }
-  for (double& v : slope_.value) v *= tau;
-  std::ranges::fill(change_, 0.0);
-  const KrylovResult solved = conjugate_gradients(slope_, residual_, change_, krylov_tolerance, 20000);
+  for (double& v : drainage_.slope.value) v *= tau;
+  std::ranges::fill(of_.change, 0.0);
+  const KrylovResult solved =
+      conjugate_gradients(drainage_.slope, of_.residual, of_.change, krylov_tolerance, 20000);
   if (!solved.converged)
     throw std::runtime_error(
         fmt::format("consolidation: the pressure equations do not converge ({:.1e} left)", solved.residual));
   ++counts_.pressure_solves, counts_.krylov_iterations += solved.iterations;
-  Particles& p = model_.particles;
-  for (std::size_t a = 0; a < head_.size(); ++a) {
-    head_[a] += change_[a];
-    p.stress[a] = p.stress[a].plus_isotropic(-unit_weight_ * change_[a]);
-    scale_ = std::max(scale_, std::abs(head_[a]));
+  Particles& p = soil_.model.particles;
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+    of_.head[a] += of_.change[a];
+    p.stress[a] = p.stress[a].plus_isotropic(-unit_weight_ * of_.change[a]);
+    progress_.scale = std::max(progress_.scale, std::abs(of_.head[a]));
   }
 }
 
 /// Flow and soil in turn until both keep still.
 void Consolidation::settle(std::span<const double> known, double tau) {
-  const int sweeps = static_cast<int>(std::ceil(waves_between_solves * extent_ / model_.spacing));
+  const int sweeps = static_cast<int>(std::ceil(waves_between_solves * soil_.extent / soil_.model.spacing));
   const double enough = share_of_split * settings_.tolerance;
   for (int turn = 0; turn < most_turns; ++turn) {
     solve_flow(known, tau);
-    relax(sweeps, time_);
+    relax(sweeps, progress_.time);
     double largest = 0;
-    for (const double c : change_) largest = std::max(largest, std::abs(c));
-    unbalanced_ = scale_ > 0 ? out_of_balance() : 0;
-    if (!std::isfinite(unbalanced_)) break;
-    if (turn > 0 && largest <= enough * scale_ && unbalanced_ <= enough) return;
-    if (turn > 0 && scale_ == 0 && largest == 0) return;
+    for (const double c : of_.change) largest = std::max(largest, std::abs(c));
+    progress_.unbalanced = progress_.scale > 0 ? out_of_balance() : 0;
+    if (!std::isfinite(progress_.unbalanced)) break;
+    if (turn > 0 && largest <= enough * progress_.scale && progress_.unbalanced <= enough) return;
+    if (turn > 0 && progress_.scale == 0 && largest == 0) return;
   }
   throw std::runtime_error(fmt::format(
       "consolidation: the soil does not come to rest at {:.6g} s: it fails, or tolerance is too small",
-      time_));
+      progress_.time));
 }
 
 /// The loads act at once; no water has left yet.
 void Consolidation::start() {
-  relax(static_cast<int>(std::ceil(waves_between_solves * extent_ / model_.spacing)), time_);
-  settle(water_, 0);
-  started_ = true;
+  relax(static_cast<int>(std::ceil(waves_between_solves * soil_.extent / soil_.model.spacing)),
+        progress_.time);
+  settle(of_.water, 0);
+  progress_.started = true;
 }
 
 double Consolidation::advance(double now, double until) {
-  time_ = now;
+  progress_.time = now;
   take_up_pressure();
   try {
-    if (!started_) start();
+    if (!progress_.started) start();
     now = flow_step(now, until);
   } catch (...) {
     give_back_pressure();
@@ -191,57 +195,58 @@ double Consolidation::advance(double now, double until) {
 
 double Consolidation::flow_step(double now, double until) {
   const double left = until - now;
-  const double step = left <= step_ ? left : std::min(step_, left / 2);  // no tiny last one
+  const double step = left <= progress_.step ? left : std::min(progress_.step, left / 2);  // no tiny last one
   const double tau = gamma_of_sdirk * step;
-  const std::size_t n = head_.size();
-  std::vector<double> known = water_, first(n);
+  const std::size_t n = of_.head.size();
+  std::vector<double> known = of_.water, first(n);
 
-  time_ = now + tau;
+  progress_.time = now + tau;
   settle(known, tau);
-  flow_.assemble(head_, faces_, DarcyFlow::Slope::secant, slope_, inflow_);
-  first = inflow_;
+  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
+  first = of_.inflow;
   const auto add_through = [&](double weight) {
-    for (const double q : flow_.through_patches(head_, faces_)) drained_ -= weight * q;
+    for (const double q : drainage_.flow.through_patches(of_.head, drainage_.faces))
+      progress_.drained -= weight * q;
   };
   add_through((1 - gamma_of_sdirk) * step);
 
-  time_ = now + step;
-  for (std::size_t a = 0; a < n; ++a) known[a] = water_[a] + (step - tau) * first[a];
+  progress_.time = now + step;
+  for (std::size_t a = 0; a < n; ++a) known[a] = of_.water[a] + (step - tau) * first[a];
   settle(known, tau);
-  flow_.assemble(head_, faces_, DarcyFlow::Slope::secant, slope_, inflow_);
+  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
   add_through(tau);
-  for (std::size_t a = 0; a < n; ++a) water_[a] = known[a] + tau * inflow_[a];
+  for (std::size_t a = 0; a < n; ++a) of_.water[a] = known[a] + tau * of_.inflow[a];
   for (std::size_t a = 0; a < n; ++a)  // what lies on a face that drains gives its water away at once
-    if (pinned_[a] >= 0) {
-      const double gained = volume_gained(a) + storage_[a] * head_[a];
-      drained_ -= gained - water_[a], water_[a] = gained;
+    if (drainage_.pinned[a] >= 0) {
+      const double gained = volume_gained(a) + of_.storage[a] * of_.head[a];
+      progress_.drained -= gained - of_.water[a], of_.water[a] = gained;
     }
 
-  for (std::size_t a = 0; a < n; ++a) change_[a] = tau * (inflow_[a] - first[a]) / split_[a];
-  const double error = scale_ > 0 ? rms(change_) / scale_ : 0;
+  for (std::size_t a = 0; a < n; ++a) of_.change[a] = tau * (of_.inflow[a] - first[a]) / of_.split[a];
+  const double error = progress_.scale > 0 ? rms(of_.change) / progress_.scale : 0;
   const double wanted = error > 0 ? 0.9 * std::sqrt(settings_.tolerance / error) : settings_.growth;
   const double next = step * std::clamp(wanted, 0.3, settings_.growth);
-  step_ = step < step_ ? std::max(next, std::min(step_, step * wanted)) : next;
+  progress_.step = step < progress_.step ? std::max(next, std::min(progress_.step, step * wanted)) : next;
   ++counts_.flow_steps;
   return step < left ? now + step : until;
 }
 
 void Consolidation::visit(StateArchive& state) {
-  state.array("excess_head", head_);
-  state.array("water_gained", water_);
-  state.array("accelerations_at_rest", accelerations_);
-  state.value("flow_step", step_);
-  state.value("largest_head", scale_);
-  state.value("drained", drained_);
-  state.value("unbalanced", unbalanced_);
-  state.value("loaded", started_);
+  state.array("excess_head", of_.head);
+  state.array("water_gained", of_.water);
+  state.array("accelerations_at_rest", soil_.accelerations);
+  state.value("flow_step", progress_.step);
+  state.value("largest_head", progress_.scale);
+  state.value("drained", progress_.drained);
+  state.value("unbalanced", progress_.unbalanced);
+  state.value("loaded", progress_.started);
   state.value("flow_steps", counts_.flow_steps);
   state.value("pressure_solves", counts_.pressure_solves);
   state.value("krylov_iterations", counts_.krylov_iterations);
   state.value("soil_sweeps", counts_.soil_sweeps);
-  state.value("flow_relaxation_stiffness", relaxation_.stiffness);
-  state.value("flow_relaxation_inertia", relaxation_.inertia);
-  state.value("flow_relaxation_damping", relaxation_.damping);
+  state.value("flow_relaxation_stiffness", soil_.relaxation.stiffness);
+  state.value("flow_relaxation_inertia", soil_.relaxation.inertia);
+  state.value("flow_relaxation_damping", soil_.relaxation.damping);
 }
 
 }  // namespace porosph

@@ -34,16 +34,17 @@ class Consolidation {
   /// std::runtime_error where the soil does not come to rest: it has failed.
   double advance(double now, double until);
 
-  std::span<const double> head() const { return head_; }  ///< excess, of the particles [m]
-  double drained() const { return drained_; }             ///< volume that has left so far [m2]
+  std::span<const double> head() const { return of_.head; }  ///< excess, of the particles [m]
+  double drained() const { return progress_.drained; }       ///< volume that has left so far [m2]
   /// Volume that is missing: what the particles have lost less what has left [m2].
   double imbalance() const;
-  std::span<const Vec2> accelerations() const { return accelerations_; }  ///< at rest, those that are left
-  void visit(StateArchive& state);                                        ///< saves or restores all of it
+  std::span<const Vec2> accelerations() const {
+    return soil_.accelerations;
+  }                                 ///< at rest, those that are left
+  void visit(StateArchive& state);  ///< saves or restores all of it
   const Counts& counts() const { return counts_; }
-  double unbalanced() const {
-    return unbalanced_;
-  }  ///< forces left by the last step, as in the tolerance [-]
+  /// Forces left by the last step, as in the tolerance [-].
+  double unbalanced() const { return progress_.unbalanced; }
 
  private:
   void start();
@@ -56,23 +57,44 @@ class Consolidation {
   void take_up_pressure();
   void give_back_pressure();
 
-  Model& model_;
-  Dynamics& dynamics_;
-  double dt_;
+  /// What brings the soil to rest.
+  struct Soil {
+    Model& model;
+    Dynamics& dynamics;
+    double dt;          ///< [s]
+    double extent = 0;  ///< of the body [m]
+    Relaxation relaxation = {};
+    std::vector<Vec2> accelerations = {}, before = {};
+  };
+  /// What the water flows by.
+  struct Drainage {
+    HydraulicOutline outline;
+    FaceConditions faces;
+    DarcyFlow flow;
+    std::vector<std::int32_t> pinned = {};  ///< patch of particles that lie on a face, or -1
+    SparseRows slope = {};
+  };
+  /// Of each particle.
+  struct Amounts {
+    std::vector<double> start_volume, storage, split;  ///< V0 [m2]; S and beta of the split [m]
+    std::vector<double> head, water;                   ///< excess h [m]; W [m2]
+    std::vector<double> inflow, residual, change;      ///< of the present solve
+  };
+  struct Progress {
+    double step = 0, time = 0;  ///< [s]
+    double scale = 0;           ///< largest |h| so far [m]
+    double drained = 0;         ///< [m2]
+    double unbalanced = 0;
+    bool started = false;
+  };
+  static Drainage drainage(const Case& scene, const Particles& particles);
+
+  Soil soil_;
   CouplingCase settings_;
-  double unit_weight_, extent_;
-  HydraulicOutline outline_;
-  FaceConditions faces_;
-  DarcyFlow flow_;
-  std::vector<std::int32_t> pinned_;                    ///< patch of those that lie on a face, or -1
-  std::vector<double> start_volume_, storage_, split_;  ///< V0 [m2]; S and beta of the split [m]
-  std::vector<double> head_, water_;                    ///< excess h [m]; W [m2]
-  std::vector<double> inflow_, residual_, change_;
-  SparseRows slope_;
-  std::vector<Vec2> accelerations_, before_;
-  Relaxation relaxation_;
-  double step_ = 0, time_ = 0, scale_ = 0, drained_ = 0, unbalanced_ = 0;
-  bool started_ = false;
+  double unit_weight_;
+  Drainage drainage_;
+  Amounts of_;
+  Progress progress_;
   Counts counts_;
 };
 

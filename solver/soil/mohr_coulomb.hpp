@@ -106,8 +106,12 @@ struct ReturnedInPlane {
           yields ? r.dilation : 0};
 }
 
-/// Largest minus smallest principal stress, halved: the radius of the largest circle [Pa]; and its middle.
+/// A space in which zz is a principal stress.
 template <class Space>
+concept HasPrincipalPlane = Space::dim == 2;
+
+/// Largest minus smallest principal stress, halved: the radius of the largest circle [Pa]; and its middle.
+template <HasPrincipalPlane Space>
 struct LargestCircle {
   explicit LargestCircle(const Symmetric<Space>& s) {
     const double centre = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
@@ -158,18 +162,18 @@ struct MohrCoulomb : Elasticity {
             residual_c_cos_phi + (c_cos_phi - residual_c_cos_phi) * left, sin_psi * left, tension};
   }
   /// Radius of the largest circle, and the most that the law bears around its middle [Pa].
-  template <class Space>
+  template <HasPrincipalPlane Space>
   double shear_stress(const Symmetric<Space>& s) const {
     return LargestCircle<Space>(s).radius;
   }
-  template <class Space>
+  template <HasPrincipalPlane Space>
   double shear_strength(const Symmetric<Space>& s, const History& q) const {
     const MohrCoulombSurface now = surface(q);
     return now.c_cos_phi - now.sin_phi * LargestCircle<Space>(s).middle;
   }
   double sin_friction(const History& q) const { return surface(q).sin_phi; }
 
-  template <class Space>
+  template <HasPrincipalPlane Space>
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {

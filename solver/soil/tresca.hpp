@@ -31,17 +31,17 @@ struct Tresca : Elasticity {
     return reduction * q.undrained_strength * (residual + (1 - residual) * softening.left(q.plastic_strain));
   }
   /// Radius of the largest circle, and the most that the law bears [Pa].
-  template <class Space>
+  template <HasPrincipalPlane Space>
   double shear_stress(const Symmetric<Space>& s) const {
     return LargestCircle<Space>(s).radius;
   }
-  template <class Space>
+  template <HasPrincipalPlane Space>
   double shear_strength(const Symmetric<Space>&, const History& q) const {
     return undrained_strength(q);
   }
   double sin_friction(const History&) const { return 0; }
 
-  template <class Space>
+  template <HasPrincipalPlane Space>
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {

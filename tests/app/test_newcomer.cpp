@@ -92,6 +92,30 @@ TEST_CASE("every subcommand is in completion and manual page with all its option
   }
 }
 
+TEST_CASE("the manual page tells of all files of a run, of what the environment sets and of all statuses") {
+  const Workplace place;
+  const std::string man = std::regex_replace(place.porosph("man").out, std::regex(R"(\\-)"), "-");
+  place.write("mine.toml", small_case);
+  REQUIRE(place.porosph("run mine.toml --quiet --out run").status == 0);
+  for (const auto& entry : std::filesystem::directory_iterator(place.folder() / "run")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(".")) CHECK_THAT(man, Contains(name));
+  }
+  const std::regex reads(R"re((?:getenv|is_set)\("(\w+)"\))re");
+  int variables = 0;
+  for (const std::string folder : {"app", "render", "vtk_io", "solver"})
+    for (const auto& file :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(POROSPH_SOURCE_DIR) / folder)) {
+      if (file.path().extension() != ".cpp") continue;
+      const std::string text = text_of(file.path());
+      for (std::sregex_iterator it(text.begin(), text.end(), reads), end; it != end; ++it, ++variables)
+        CHECK_THAT(man, Contains(".B " + it->str(1)));
+    }
+  CHECK(variables >= 5);
+  for (const char* status : {"0", "1", "2", "3", "4", "130"})
+    CHECK_THAT(man, Contains(std::string(".B ") + status + "\n"));
+}
+
 TEST_CASE("bash completes subcommands, cases, settings, fields and files") {
   const Workplace place;
   place.write("mine.toml", small_case);

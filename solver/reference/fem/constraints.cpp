@@ -10,11 +10,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/boundary/support.hpp"
+
 namespace porosph {
 namespace {
 
 void hold(NodeFreedom& node, const BoundaryCase& boundary) {
-  if (boundary.kind == BoundaryKind::fixed || node.count == 0) {
+  if (support_of(boundary.kind).carries_shear() || node.count == 0) {
     node.count = 0;
     return;
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "solver/boundary/support.hpp"
 #include "solver/reference/fem/constraints.hpp"
 #include "solver/reference/fem/mesh.hpp"
 
@@ -18,7 +19,7 @@ Held held(const std::vector<BoundaryCase>& boundaries, const Point& a, const Poi
   Held strongest = Held::no;
   for (const BoundaryCase& boundary : boundaries)
     if (on_segment(a, boundary.from, boundary.to, tiny) && on_segment(b, boundary.from, boundary.to, tiny))
-      strongest = std::max(strongest, boundary.kind == BoundaryKind::fixed ? Held::fixed : Held::roller);
+      strongest = std::max(strongest, support_of(boundary.kind).carries_shear() ? Held::fixed : Held::roller);
   return strongest;
 }
 

@@ -173,7 +173,7 @@ Mat2 FlowingSoil::gradient_with_walls(const ReferenceConfiguration& r, const Par
 }
 
 void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particles& p, PlaneTensors& flux,
-                                  std::vector<Record>& records) const {
+                                  std::span<Record> records) const {
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];

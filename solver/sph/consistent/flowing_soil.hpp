@@ -35,7 +35,7 @@ class FlowingSoil {
   /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
   /// particle, after a step ...
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
-                       PlaneTensors& flux, std::vector<Record>& records) const;
+                       PlaneTensors& flux, std::span<Record> records) const;
   /// ... and takes the walls' pairs out of the accelerations [m/s2]. A particle with hardly a neighbour is
   /// held by the wall alone: it keeps them.
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,

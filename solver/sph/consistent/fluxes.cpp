@@ -98,7 +98,7 @@ void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vecto
     const Mat2 flux = fill * matrix(piola_[n + i]) * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
     flux_.set(n + i, flux);
     if (!r.listed[n + i]) return;
-    Lanes& q = records_[n + i].q;
+    double* q = records_[n + i].q;
     for (int k = 0; k < 4; ++k) q[k] = flux_.component[k][n + i];
   });
 }

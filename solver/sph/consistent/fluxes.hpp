@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
+#include "solver/space/zero_pages.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/consistent/stress_behind_walls.hpp"
 #include "solver/sph/consistent/zero_energy_spring.hpp"
@@ -31,7 +32,7 @@ class Fluxes {
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 
   PlaneTensors& flux() { return flux_; }
-  std::vector<Record>& records() { return records_; }
+  std::span<Record> records() { return records_; }
 
   void connect(ConsistentArrays& arrays, const ReferenceConfiguration& reference);
   /// Saves or restores what the next step needs; ghosts have theirs made when they are needed.
@@ -51,7 +52,7 @@ class Fluxes {
   std::vector<double> pressure_;                   ///< p_w [Pa]; empty in dry soil
   std::array<std::vector<double>, 2> velocity_;    ///< [m/s]
   std::array<std::vector<double>, 2> controlled_;  ///< v + rate * displacement [m/s]; empty without
-  std::vector<Record> records_;                    ///< flux, p_w and velocity of those that are listed
+  SparselyWritten<Record> records_;                ///< flux, p_w and velocity of those that are listed
   std::vector<std::uint8_t> mirrored_;             ///< of the particles: their P is asked for
   std::vector<PlaneTensor> piola_;                 ///< P of those, and of the ghosts [Pa]
   std::vector<Vec2> ghost_positions_;              ///< where the ghosts are now [m]

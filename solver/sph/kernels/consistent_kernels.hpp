@@ -1,7 +1,9 @@
-// The hot loops of the consistent form, over plain arrays.
+// The hot loops of the consistent form, over plain arrays. Views and loops are templates of the space; the
+// program runs those of the plane.
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "solver/sph/consistent/pair_stencils.hpp"
 #include "solver/sph/kernels/record.hpp"
@@ -10,30 +12,45 @@
 
 namespace porosph {
 
-/// Of a record; the flux comes first.
-constexpr int pressure_lane = 4, viscosity_lane = 5, velocity_lane = 6;
+/// In a record; the flux comes first.
+constexpr int pressure_lane = Record::pressure, viscosity_lane = Record::viscosity,
+              velocity_lane = Record::velocity;
 
-// Arrays are per particle unless they say "and ghost": those go on with the ghosts. Tensors of the plane come
-// as xx, xy, yx, yy.
+/// The soil strains across the plane as well, by v_x / x.
+template <class Space>
+constexpr bool has_hoop = std::is_same_v<Space, Axisymmetric>;
+
+// Arrays are per particle unless they say "and ghost": those continue with the ghosts. Matrices come row by
+// row (in the plane xx, xy, yx, yy), gradients of Axisymmetric with the hoop's number after them, and
+// stresses in the order of Symmetric.
+template <class Space>
+constexpr int matrix_size = Space::dim* Space::dim;
+template <class Space>
+constexpr int gradient_size = matrix_size<Space> + (has_hoop<Space> ? 1 : 0);
+template <class Space>
+constexpr int stress_size = static_cast<int>(sizeof(Symmetric<Space>) / sizeof(double));
 
 /// What belongs to the reference configuration.
-struct ReferenceView {
-  const PairStencils* stencils;
-  const double* correction[4];  ///< L, and ghost
-  const double* kappa;          ///< of closed gradients, two numbers each, and ghost [m]; or null
-  const double* density;        ///< [kg/m3]
-  const double* fill;           ///< share of its cell that a particle fills
+template <class Space>
+struct ReferenceViewIn {
+  const PairStencilsIn<Space>* stencils;
+  const double* correction[matrix_size<Space>];  ///< L, and ghost
+  const double* kappa;    ///< of closed gradients, a vector each, and ghost [m]; or null
+  const double* density;  ///< [kg/m3]
+  const double* fill;     ///< share of its cell that a particle fills
+  const double* radius;   ///< X of Axisymmetric, and ghost [m]; otherwise unused
 };
 
 /// What the forces and rates are summed from.
-struct MotionView {
-  const double* velocity[2];  ///< and ghost [m/s]
-  const double*
-      controlled[2];       ///< v + k * displacement, which the zero-energy control acts on, and ghost [m/s]
-  const double* pressure;  ///< p_w, and ghost [Pa]; null in dry soil
+template <class Space>
+struct MotionViewIn {
+  const double* velocity[Space::dim];    ///< and ghost [m/s]
+  const double* controlled[Space::dim];  ///< v + k * displacement, which the zero-energy control acts on, and
+                                         ///< ghost [m/s]
+  const double* pressure;                ///< p_w, and ghost [Pa]; null in dry soil
 };
 
-/// Where soils meet: see OwnSides, one entry per particle there.
+/// Where soils meet, in the plane only: see OwnSides, one entry per particle there.
 struct OwnSideView {
   const double* gradient[16];  ///< A
   const double* tie[4];        ///< [Pa]
@@ -42,23 +59,27 @@ struct OwnSideView {
 };
 
 /// The soil's state since the reference.
-struct SoilStateView {
+template <class Space>
+struct SoilStateViewIn {
   SoilView soils;
-  double* deformation[4];  ///< F
-  double* stress;          ///< effective, four numbers each: xx, yy, zz, xy [Pa]
-  double* density;         ///< [kg/m3]
+  double* deformation[gradient_size<Space>];  ///< F
+  double* stress;                             ///< effective, stress_size numbers each [Pa]
+  double* density;                            ///< [kg/m3]
   OwnSideView own_sides;
   double* interface_stress;  ///< tau [Pa]
   double* yields;            ///< 1 where the soil yielded in the last step, or else 0; null: nobody asks
 };
 
-/// What a step leaves for the next forces.
-struct FluxView {
-  double* flux[4];               ///< fill P L - mu (dF/dt + k (F - I)), and ghost [Pa]
-  const std::uint8_t* listed;    ///< 1 where an own list names the particle: its record is kept
-  Record* records;               ///< flux, pressure and velocity or controlled motion of those, and ghost
+/// What a step leaves for the next forces. In Axisymmetric each particle stands for a radian: the flux is
+/// multiplied by X, and so is the viscosity in the records.
+template <class Space>
+struct FluxViewIn {
+  double* flux[matrix_size<Space>];  ///< fill P L - mu (dF/dt + k (F - I)), and ghost [Pa; Pa m]
+  const std::uint8_t* listed;        ///< 1 where an own list names the particle: its record is kept
+  RecordIn<Space>* records;      ///< flux, pressure, viscosity and velocity or controlled motion, and ghost
   const std::uint8_t* mirrored;  ///< 1 where ghosts or closed gradients ask for P
-  double* piola;                 ///< P of those, four numbers each, and ghost [Pa]
+  double* piola;                 ///< P of those, a matrix each, and ghost [Pa]
+  double* hoop;                  ///< the hoop's part of P in Axisymmetric [Pa]; otherwise unused
 };
 
 /// Zero-energy control and bulk viscosity.
@@ -80,14 +101,15 @@ struct FlowView {
   double weight;          ///< g dx [m2/s2]
 };
 
-struct ConsistentArrays {
-  ReferenceView reference;
-  MotionView motion;
-  SoilStateView state;
-  FluxView fluxes;
+template <class Space>
+struct ConsistentArraysIn {
+  ReferenceViewIn<Space> reference;
+  MotionViewIn<Space> motion;
+  SoilStateViewIn<Space> state;
+  FluxViewIn<Space> fluxes;
   StabilisationView control;
   FlowView flow;
-  double gravity[2];  ///< [m/s2]
+  double gravity[Space::dim];  ///< [m/s2]
 };
 
 /// What the loops find out on their way.
@@ -98,14 +120,19 @@ struct LargestChange {
 };
 
 /// One tile of particles each.
-struct ConsistentKernels {
-  /// dF/dt, four numbers each, written for the whole tile.
-  void (*rates)(const ConsistentArrays&, std::int32_t tile, double* out);
+template <class Space>
+struct ConsistentKernelsIn {
+  /// dF/dt, gradient_size numbers each, written for the whole tile.
+  void (*rates)(const ConsistentArraysIn<Space>&, std::int32_t tile, double* out);
   /// Carries F, the stress and the density over a step dt [s] and writes flux, records and P.
-  void (*strain)(const ConsistentArrays&, std::int32_t tile, double dt, LargestChange&);
-  /// Accelerations with gravity, two numbers each for all particles [m/s2].
-  void (*accelerate)(const ConsistentArrays&, std::int32_t tile, double* out);
+  void (*strain)(const ConsistentArraysIn<Space>&, std::int32_t tile, double dt, LargestChange&);
+  /// Accelerations with gravity, a vector each for all particles [m/s2].
+  void (*accelerate)(const ConsistentArraysIn<Space>&, std::int32_t tile, double* out);
 };
+
+using ReferenceView = ReferenceViewIn<Plane>;
+using ConsistentArrays = ConsistentArraysIn<Plane>;
+using ConsistentKernels = ConsistentKernelsIn<Plane>;
 
 /// Those compiled for these vector units, which the program must have.
 const ConsistentKernels& consistent_kernels(VectorUnits units);

@@ -128,14 +128,14 @@ struct Rates {
 
 /// Sums over the neighbours of `width` particles at once.
 template <class Sums>
-inline void shared_run(const Arrays& c, const PairRuns::Run& run) {
-  static_assert(width <= PairRuns::widest);
-  const std::int32_t* offset = c.runs->offset.data();
-  double* weight = c.weight + run.weights;
-  for (std::int32_t next = run.first; next < run.last; next += width) {
-    const std::int32_t a = std::min(next, run.last - width);
+inline void shared_stretch(const Arrays& c, const PairLists::Stretch& stretch) {
+  static_assert(width <= PairLists::widest);
+  const std::int32_t* offset = c.lists->offset.data();
+  double* weight = c.weight + stretch.weights;
+  for (std::int32_t next = stretch.first; next < stretch.last; next += width) {
+    const std::int32_t a = std::min(next, stretch.last - width);
     Sums sums(c, [a](const double* p) { return load(p + a); });
-    for (std::int32_t k = run.pairs; k < run.pairs_end; ++k, weight += width) {
+    for (std::int32_t k = stretch.pairs; k < stretch.pairs_end; ++k, weight += width) {
       const std::int32_t b = a + offset[k];
       sums.add(weight, [b](const double* p) { return load(p + b); });
     }
@@ -146,12 +146,12 @@ inline void shared_run(const Arrays& c, const PairRuns::Run& run) {
 /// Sums over `width` neighbours of a particle at once. Those that fill up the list, the particle itself, have
 /// g = 0.
 template <class Sums>
-inline void own_lists(const Arrays& c, const PairRuns::Run& run) {
-  const PairRuns& runs = *c.runs;
-  for (std::int32_t a = run.first; a < run.last; ++a) {
+inline void own_lists(const Arrays& c, const PairLists::Stretch& stretch) {
+  const PairLists& lists = *c.lists;
+  for (std::int32_t a = stretch.first; a < stretch.last; ++a) {
     Sums sums(c, [a](const double* p) { return all(p[a]); });
-    for (std::int64_t k = runs.begin[a]; k < runs.begin[a + 1]; k += width) {
-      const std::int32_t* index = runs.index.data() + k;
+    for (std::int64_t k = lists.begin[a]; k < lists.begin[a + 1]; k += width) {
+      const std::int32_t* index = lists.index.data() + k;
       sums.add(c.weight + k, [index](const double* p) { return gather(p, index); });
     }
     sums.finish([a](double* p, const Vector& sum) { p[a] = sum_of_lanes(sum); });
@@ -159,30 +159,30 @@ inline void own_lists(const Arrays& c, const PairRuns::Run& run) {
 }
 
 template <class Sums>
-void run_of(const Arrays& c, std::int32_t number) {
-  const PairRuns::Run& run = c.runs->runs[number];
-  run.shared ? shared_run<Sums>(c, run) : own_lists<Sums>(c, run);
+void sums_over(const Arrays& c, std::int32_t number) {
+  const PairLists::Stretch& stretch = c.lists->stretches[number];
+  stretch.shared ? shared_stretch<Sums>(c, stretch) : own_lists<Sums>(c, stretch);
 }
 
-void forces(const Arrays& c, std::int32_t run) {
+void forces(const Arrays& c, std::int32_t stretch) {
   const bool viscous = c.viscosity_alpha != 0 || c.viscosity_beta != 0;
   if (c.rho_squared)
-    viscous ? run_of<Forces<true, true>>(c, run) : run_of<Forces<true, false>>(c, run);
+    viscous ? sums_over<Forces<true, true>>(c, stretch) : sums_over<Forces<true, false>>(c, stretch);
   else
-    viscous ? run_of<Forces<false, true>>(c, run) : run_of<Forces<false, false>>(c, run);
+    viscous ? sums_over<Forces<false, true>>(c, stretch) : sums_over<Forces<false, false>>(c, stretch);
 }
 
 /// sum_b V_b (v_b - v_a) (x) L_a grad W_ab, of which eqs. (29) and (31) are the symmetric and the skew part.
 /// What sticks to a wall moves against v_a.
 void rates(const Arrays& c, std::int32_t number) {
-  run_of<Rates>(c, number);
-  const PairRuns::Run run = c.runs->runs[number];
+  sums_over<Rates>(c, number);
+  const PairLists::Stretch stretch = c.lists->stretches[number];
   const double *lxx = c.correction[0], *lxy = c.correction[1], *lyx = c.correction[2], *lyy = c.correction[3];
   const double *vx = c.velocity[0], *vy = c.velocity[1], *wx = c.wall_velocity[0], *wy = c.wall_velocity[1];
   double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
   double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
 #pragma omp simd
-  for (std::int32_t a = run.first; a < run.last; ++a) {
+  for (std::int32_t a = stretch.first; a < stretch.last; ++a) {
     const double axx = xx[a], axy = xy[a], ayx = yx[a], ayy = yy[a];
     xx[a] = axx * lxx[a] + axy * lxy[a] - vx[a] * wx[a], xy[a] = axx * lyx[a] + axy * lyy[a] - vx[a] * wy[a];
     yx[a] = ayx * lxx[a] + ayy * lxy[a] - vy[a] * wx[a], yy[a] = ayx * lyx[a] + ayy * lyy[a] - vy[a] * wy[a];
@@ -214,7 +214,7 @@ void material_step(const Arrays& c, std::int32_t first, std::int32_t last, const
 
 /// The same of a law that is called for all of them at once.
 void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const LawView& view, double dt) {
-  constexpr std::int32_t longest = PairRuns::longest;
+  constexpr std::int32_t longest = PairLists::longest;
   double gradient[4][longest];
   const std::int32_t count = last - first;
   const double half = 0.5 * dt;
@@ -239,8 +239,8 @@ void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const
 
 void strain(const Arrays& c, std::int32_t number, double dt) {
   rates(c, number);
-  const PairRuns::Run run = c.runs->runs[number];
-  for_each_soil(c.soils, run.first, run.last,
+  const PairLists::Stretch stretch = c.lists->stretches[number];
+  for_each_soil(c.soils, stretch.first, stretch.last,
                 [&](std::int32_t first, std::int32_t last, const LawView& law, std::int32_t) {
                   if (law.kind == Laws::size)
                     external_step(c, first, last, law, dt);
@@ -253,6 +253,6 @@ void strain(const Arrays& c, std::int32_t number, double dt) {
 }  // namespace
 
 extern const PaperKernels paper_kernels;
-const PaperKernels paper_kernels = {run_of<Geometry>, forces, rates, strain};
+const PaperKernels paper_kernels = {sums_over<Geometry>, forces, rates, strain};
 
 }  // namespace porosph::POROSPH_VECTOR_UNITS

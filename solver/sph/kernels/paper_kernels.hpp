@@ -5,7 +5,7 @@
 
 #include "solver/sph/kernels/soil_view.hpp"
 #include "solver/sph/kernels/vector_units.hpp"
-#include "solver/sph/paper/pair_runs.hpp"
+#include "solver/sph/paper/pair_lists.hpp"
 
 namespace porosph {
 
@@ -34,7 +34,7 @@ struct PaperArrays {
   enum : int { rate_xx, rate_xy, rate_yx, rate_yy };  // and then of the velocity gradient
   static constexpr int sums = 12;
 
-  const PairRuns* runs;
+  const PairLists* lists;
   double smoothing_length;                 ///< h [m]
   double slope;                            ///< alpha / h^2 of the kernel [1/m4]
   double viscosity_alpha, viscosity_beta;  ///< both 0: no artificial viscosity
@@ -55,16 +55,16 @@ struct PaperArrays {
   double* sum[sums];  ///< per particle
 };
 
-/// One run of particles each.
+/// One stretch of particles each.
 struct PaperKernels {
   /// Writes w of all pairs, sum g (x) (x_b - x_a) and sum g.
-  void (*geometry)(const PaperArrays&, std::int32_t run);
+  void (*geometry)(const PaperArrays&, std::int32_t stretch);
   /// Writes the sums of the momentum equation.
-  void (*forces)(const PaperArrays&, std::int32_t run);
+  void (*forces)(const PaperArrays&, std::int32_t stretch);
   /// Writes the velocity gradients, with walls.
-  void (*rates)(const PaperArrays&, std::int32_t run);
+  void (*rates)(const PaperArrays&, std::int32_t stretch);
   /// Carries effective stress and density over a step dt [s].
-  void (*strain)(const PaperArrays&, std::int32_t run, double dt);
+  void (*strain)(const PaperArrays&, std::int32_t stretch, double dt);
 };
 
 /// Those compiled for these vector units, which the program must have.

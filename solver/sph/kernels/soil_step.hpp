@@ -37,7 +37,7 @@ inline void for_each_soil(const SoilView& soils, std::int32_t first, std::int32_
 
 /// History of particle i, and back. Number by number: what is copied as a whole stays in memory, and the
 /// loop around it does not become vector code.
-template <SoilLaw Law>
+template <class Law>
 [[gnu::always_inline]] inline typename Law::History load_history(double* const* fields, std::int32_t i) {
   typename Law::History q;
   static_assert(history_size<Law> == 0 || sizeof q == history_size<Law> * sizeof(double));
@@ -47,7 +47,7 @@ template <SoilLaw Law>
   (std::make_index_sequence<history_size<Law>>());
   return q;
 }
-template <SoilLaw Law>
+template <class Law>
 [[gnu::always_inline]] inline void store_history(double* const* fields, std::int32_t i,
                                                  const typename Law::History& q) {
   [&]<std::size_t... k>(std::index_sequence<k...>) {
@@ -57,7 +57,7 @@ template <SoilLaw Law>
 }
 
 /// Calls use.template operator()<Law>() with the law of this place in the list.
-template <class Use, SoilLaw... Law>
+template <class Use, class... Law>
 inline void with_law(LawList<Law...>, std::size_t kind, Use&& use) {
   std::size_t place = 0;
   ((kind == place++ ? use.template operator()<Law>() : void()), ...);

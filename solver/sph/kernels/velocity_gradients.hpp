@@ -1,98 +1,109 @@
 // dF/dt of a tile of particles. For the kernels only, which are compiled for each kind of vector units.
 #pragma once
 
+#include "solver/sph/kernels/matrices.hpp"
 #include "solver/sph/kernels/tile.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
 
 /// sum_b (v_b - v_a) (x) G_ab of a stretch.
-void shared_rates(const ConsistentArrays& c, const PairStencils::Piece& piece, std::int32_t first, Row* out) {
-  const PairStencils& s = *c.reference.stencils;
-  const PairStencils::Stretch stretch = s.stretches[piece.stretch];
+template <class Space, class Piece>
+void shared_rates(const ConsistentArraysIn<Space>& c, const Piece& piece, std::int32_t first, Row* out) {
+  constexpr int dim = Space::dim;
+  const auto& s = *c.reference.stencils;
+  const auto stretch = s.stretches[piece.stretch];
   const std::int32_t* offset = s.offset.data();
-  const PairGeometry* g = s.shared.data();
+  const auto* g = s.shared.data();
   by_vectors(piece, stretch, [&](std::int32_t a) {
-    const double *vx = c.motion.velocity[0] + a, *vy = c.motion.velocity[1] + a;
-    const PairGeometry own = g[stretch.pairs];
-    const Vector x = load(vx), y = load(vy);
-    Vector sum_xx = -own.x * x, sum_xy = -own.y * x, sum_yx = -own.x * y, sum_yy = -own.y * y;
-    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
-      const Vector bx = load(vx + offset[k]), by = load(vy + offset[k]);
-      sum_xx += g[k].x * bx, sum_xy += g[k].y * bx;
-      sum_yx += g[k].x * by, sum_yy += g[k].y * by;
+    Vector sum[dim][dim];
+    for (int i = 0; i < dim; ++i) {
+      const Vector own = load(c.motion.velocity[i] + a);
+      for (int j = 0; j < dim; ++j) sum[i][j] = -along(g[stretch.pairs], j) * own;
     }
-    store(out[xx].of(a, first), sum_xx), store(out[xy].of(a, first), sum_xy);
-    store(out[yx].of(a, first), sum_yx), store(out[yy].of(a, first), sum_yy);
+    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k)
+      for (int i = 0; i < dim; ++i) {
+        const Vector other = load(c.motion.velocity[i] + a + offset[k]);
+        for (int j = 0; j < dim; ++j) sum[i][j] += along(g[k], j) * other;
+      }
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) store(out[dim * i + j].of(a, first), sum[i][j]);
   });
 }
 
 /// The same of a particle with a list of its own. Two sums of each: an addition need not wait for the one
 /// before.
-template <class Real>
-inline void own_rates(const ConsistentArrays& c, const PairGeometryIn<Real>* g, std::int32_t a,
-                      std::int32_t first, Row* out) {
-  const PairStencils& s = *c.reference.stencils;
+template <class Space, class Pair>
+inline void own_rates(const ConsistentArraysIn<Space>& c, const Pair* g, std::int32_t a, std::int32_t first,
+                      Row* out) {
+  constexpr int dim = Space::dim;
+  using Components = typename Components<dim>::Type;
+  const auto& s = *c.reference.stencils;
   const std::int32_t* index = s.index.data();
   const auto velocity = [&](std::int32_t b) {
-    return *reinterpret_cast<const Pair*>(reinterpret_cast<const double*>(c.fluxes.records + b) +
-                                          velocity_lane);
+    return vector_of<dim>(c.fluxes.records[b].q + RecordIn<Space>::velocity, 0);
   };
   std::int64_t k = s.begin[a];
   const std::int64_t last = s.begin[a + 1];
-  const Pair mine = velocity(a);
-  const PairGeometry sum = sum_of(g, k, last);
-  Pair x = -sum.x * mine, y = -sum.y * mine, x2{}, y2{};
+  const Components mine = velocity(a);
+  const auto own = sum_of(g, k, last);
+  Components sum[dim], second[dim]{};
+  for (int j = 0; j < dim; ++j) sum[j] = -along(own, j) * mine;
   for (++k; k + 1 < last; k += 2) {
-    const Pair v = velocity(index[k]), v2 = velocity(index[k + 1]);
-    x += v * double{g[k].x}, x2 += v2 * double{g[k + 1].x};
-    y += v * double{g[k].y}, y2 += v2 * double{g[k + 1].y};
+    const Components v = velocity(index[k]), v2 = velocity(index[k + 1]);
+    for (int j = 0; j < dim; ++j)
+      sum[j] += v * double{along(g[k], j)}, second[j] += v2 * double{along(g[k + 1], j)};
   }
-  if (k < last) x += velocity(index[k]) * double{g[k].x}, y += velocity(index[k]) * double{g[k].y};
-  x += x2, y += y2;
-  *out[xx].of(a, first) = x[0], *out[xy].of(a, first) = y[0];
-  *out[yx].of(a, first) = x[1], *out[yy].of(a, first) = y[1];
+  if (k < last) {
+    const Components v = velocity(index[k]);
+    for (int j = 0; j < dim; ++j) sum[j] += v * double{along(g[k], j)};
+  }
+  for (int j = 0; j < dim; ++j) {
+    sum[j] += second[j];
+    for (int i = 0; i < dim; ++i) *out[dim * i + j].of(a, first) = sum[j][i];
+  }
 }
 
 /// What closed gradients add: sum_b (v_b - v_a) (x) w_ab (kappa_b - kappa_a).
-void add_closing_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
-  const double *vx = c.motion.velocity[0], *vy = c.motion.velocity[1];
+template <class Space>
+void add_closing_rates(const ConsistentArraysIn<Space>& c, const TileRange& tile, Row* rate) {
+  constexpr int dim = Space::dim;
   for (std::int32_t a = tile.first; a < tile.last; ++a) {
-    Pair x{}, y{};
-    const Pair own = load_pair(c.reference.kappa, a);
-    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const Pair k = g.w * (load_pair(c.reference.kappa, b) - own);
-      x += k * (vx[b] - vx[a]), y += k * (vy[b] - vy[a]);
+    typename Components<dim>::Type sum[dim]{};
+    const auto own = vector_of<dim>(c.reference.kappa, a);
+    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const auto& g) {
+      const auto k = g.w * (vector_of<dim>(c.reference.kappa, b) - own);
+      for (int i = 0; i < dim; ++i) sum[i] += k * (c.motion.velocity[i][b] - c.motion.velocity[i][a]);
     });
-    *rate[xx].of(a, tile.first) += x[0], *rate[xy].of(a, tile.first) += x[1];
-    *rate[yx].of(a, tile.first) += y[0], *rate[yy].of(a, tile.first) += y[1];
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) *rate[dim * i + j].of(a, tile.first) += sum[i][j];
   }
 }
 
-/// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab.
-inline void tile_rates(const ConsistentArrays& c, const TileRange& tile, Row* rate) {
-  const bool single = !c.reference.stencils->own_single.empty();
-  for (const PairStencils::Piece* piece = tile.piece; piece != tile.piece_end; ++piece) {
-    if (piece->stretch != PairStencils::own_list)
-      shared_rates(c, *piece, tile.first, rate);
-    else if (single)
-      for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_rates(c, c.reference.stencils->own_single.data(), a, tile.first, rate);
-    else
-      for (std::int32_t a = piece->first; a < piece->last; ++a)
-        own_rates(c, c.reference.stencils->own.data(), a, tile.first, rate);
-  }
-  const double *lxx = c.reference.correction[xx] + tile.first, *lxy = c.reference.correction[xy] + tile.first;
-  const double *lyx = c.reference.correction[yx] + tile.first, *lyy = c.reference.correction[yy] + tile.first;
+/// Entry i of the rows times L^T. In a function of its own: see particle_step.
+template <class Space>
+[[gnu::always_inline]] inline void correct(double* const* rows, const double* const* correction,
+                                           std::int32_t i) {
+  put(rows, i, product(matrix_at<Space>(rows, i), transposed(matrix_at<Space>(correction, i))));
+}
+
+/// dF/dt = sum_b V_b (v_b - v_a) (x) L_a grad W_ab, and v_x / X in the hoop.
+template <class Space>
+inline void tile_rates(const ConsistentArraysIn<Space>& c, const TileRange& tile, Row* rate) {
+  for_each_piece(
+      *c.reference.stencils, tile, [&](const auto& piece) { shared_rates(c, piece, tile.first, rate); },
+      [&](const auto* pairs, std::int32_t a) { own_rates(c, pairs, a, tile.first, rate); });
+  const double* correction[matrix_size<Space>];
+  double* rows[matrix_size<Space>];
+  for (int k = 0; k < matrix_size<Space>; ++k)
+    correction[k] = c.reference.correction[k] + tile.first, rows[k] = rate[k].value;
   const std::int32_t count = tile.last - tile.first;
 #pragma omp simd
-  for (std::int32_t i = 0; i < count; ++i) {
-    const double axx = rate[xx].value[i], axy = rate[xy].value[i];
-    const double ayx = rate[yx].value[i], ayy = rate[yy].value[i];
-    rate[xx].value[i] = axx * lxx[i] + axy * lxy[i], rate[xy].value[i] = axx * lyx[i] + axy * lyy[i];
-    rate[yx].value[i] = ayx * lxx[i] + ayy * lxy[i], rate[yy].value[i] = ayx * lyx[i] + ayy * lyy[i];
-  }
+  for (std::int32_t i = 0; i < count; ++i) correct<Space>(rows, correction, i);
   if (c.reference.kappa) add_closing_rates(c, tile, rate);
+  if constexpr (has_hoop<Space>)
+    for (std::int32_t a = tile.first; a < tile.last; ++a)
+      *rate[matrix_size<Space>].of(a, tile.first) = c.motion.velocity[0][a] / c.reference.radius[a];
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ void PaperSums::make_room() {
   for (auto& l : correction) l.resize(n);
   gradient.resize(n);
   for (auto& s : sum) s.resize(n);
-  weights.resize(static_cast<std::size_t>(runs.weights / PairRuns::widest));
+  weights.resize(static_cast<std::size_t>(lists.weights / PairLists::widest));
 }
 
 void PaperSums::connect(PaperArrays& c) {
-  c.runs = &runs;
+  c.lists = &lists;
   for (int k = 0; k < 4; ++k) c.correction[k] = correction[k].data();
   c.weight = reinterpret_cast<double*>(weights.data());
   for (int k = 0; k < PaperArrays::sums; ++k) c.sum[k] = sum[k].data();
@@ -82,7 +82,7 @@ void PaperDynamics::search() {
       return b >= static_cast<std::int32_t>(n) || model_.visibility.sees(a, b, model_.particles);
     });
   walls_.search(position, reach());
-  sums_.runs = make_pair_runs(sums_.neighbours);
+  sums_.lists = make_pair_lists(sums_.neighbours);
   sums_.make_room();
   connect_arrays();
   ++counts.searches;
@@ -101,11 +101,11 @@ void PaperDynamics::connect_arrays() {
 
 void PaperDynamics::make_gradients() {
   points_.take_volumes(model_);
-  const PairRuns& runs = sums_.runs;
+  const PairLists& lists = sums_.lists;
 #pragma omp parallel for schedule(static)
-  for (std::int32_t run = 0; run < runs.count(); ++run) {
-    kernels_.geometry(arrays_, run);
-    for (std::int32_t a = runs.runs[run].first; a < runs.runs[run].last; ++a) correct(a);
+  for (std::int32_t stretch = 0; stretch < lists.count(); ++stretch) {
+    kernels_.geometry(arrays_, stretch);
+    for (std::int32_t a = lists.stretches[stretch].first; a < lists.stretches[stretch].last; ++a) correct(a);
   }
   ++counts.refreshes;
 }
@@ -188,11 +188,11 @@ void PaperDynamics::accelerations(std::span<Vec2> out) {
   points_.take_stress(model_, arrays_.rho_squared);
   tension_.take_stress(model_.particles, points_.ghosts());
   const bool stabilised = viscosity_.active() || tension_.active();
-  const PairRuns& runs = sums_.runs;
+  const PairLists& lists = sums_.lists;
 #pragma omp parallel for schedule(static)
-  for (std::int32_t run = 0; run < runs.count(); ++run) {
-    kernels_.forces(arrays_, run);
-    for (std::int32_t a = runs.runs[run].first; a < runs.runs[run].last; ++a) {
+  for (std::int32_t stretch = 0; stretch < lists.count(); ++stretch) {
+    kernels_.forces(arrays_, stretch);
+    for (std::int32_t a = lists.stretches[stretch].first; a < lists.stretches[stretch].last; ++a) {
       out[a] = stress_and_pressure(a) + model_.gravity;
       if (viscosity_.active()) out[a] += viscous(a);
       if (tension_.active()) out[a] += tension_control(a);
@@ -205,11 +205,11 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
   using Sums = PaperArrays;
   points_.take_velocities(model_.particles);
   const auto& sum = sums_.sum;
-  const PairRuns& runs = sums_.runs;
+  const PairLists& lists = sums_.lists;
 #pragma omp parallel for schedule(static)
-  for (std::int32_t run = 0; run < runs.count(); ++run) {
-    kernels_.rates(arrays_, run);
-    for (std::int32_t a = runs.runs[run].first; a < runs.runs[run].last; ++a)
+  for (std::int32_t stretch = 0; stretch < lists.count(); ++stretch) {
+    kernels_.rates(arrays_, stretch);
+    for (std::int32_t a = lists.stretches[stretch].first; a < lists.stretches[stretch].last; ++a)
       out[a] << sum[Sums::rate_xx][a], sum[Sums::rate_xy][a], sum[Sums::rate_yx][a], sum[Sums::rate_yy][a];
   }
 }
@@ -220,7 +220,8 @@ void PaperDynamics::strain(double dt) {
   arrays_.effective_stress = &model_.particles.stress.data()->xx;
   arrays_.own_density = model_.particles.density.data();
 #pragma omp parallel for schedule(static)
-  for (std::int32_t run = 0; run < sums_.runs.count(); ++run) kernels_.strain(arrays_, run, dt);
+  for (std::int32_t stretch = 0; stretch < sums_.lists.count(); ++stretch)
+    kernels_.strain(arrays_, stretch, dt);
 }
 
 /// Neighbours and ghosts are those of the last search; the rest is rebuilt in every step.

@@ -21,8 +21,8 @@ namespace porosph {
 struct PaperSums {
   std::vector<Vec2> searched;  ///< positions at the search for neighbours; empty before the first
   NeighbourList neighbours;
-  PairRuns runs;                ///< of the neighbours
-  std::vector<Record> weights;  ///< of the runs' pairs; whole cache lines
+  PairLists lists;              ///< of the neighbours
+  std::vector<Record> weights;  ///< of the pairs; whole cache lines
   std::array<std::vector<double>, PaperArrays::sums> sum;
   std::array<std::vector<double>, 4> correction;  ///< L of eq. (10)
   std::vector<Vec2> gradient;                     ///< sum of G_ab [1/m]

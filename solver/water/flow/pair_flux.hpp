@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "solver/model/model.hpp"
+#include "solver/case/case.hpp"
+#include "solver/particles/particles.hpp"
 #include "solver/water/flow/outline.hpp"
 
 namespace porosph {

@@ -6,7 +6,7 @@
 
 #include "solver/analysis/frame_values.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 #include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 

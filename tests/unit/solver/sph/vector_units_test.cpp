@@ -77,29 +77,29 @@ TEST_CASE("particles whose lists are alike are summed together, wherever they ha
   const auto shared = [&] {
     const NeighbourList list =
         find_neighbours(model.particles.position, model.particles.size(), 2.6 * model.spacing);
-    const PairRuns runs = make_pair_runs(list);
+    const PairLists lists = make_pair_lists(list);
     std::int32_t next = 0, sharing = 0;
     std::int64_t weights = 0;
-    for (const PairRuns::Run& run : runs.runs) {
-      CHECK(run.first == next);
-      next = run.last;
-      CHECK(run.last - run.first <= PairRuns::longest);
-      if (run.shared) {
-        CHECK(run.last - run.first >= PairRuns::widest);
-        sharing += run.last - run.first;
-        weights += (run.last - run.first) * (run.pairs_end - run.pairs);
+    for (const PairLists::Stretch& stretch : lists.stretches) {
+      CHECK(stretch.first == next);
+      next = stretch.last;
+      CHECK(stretch.last - stretch.first <= PairLists::longest);
+      if (stretch.shared) {
+        CHECK(stretch.last - stretch.first >= PairLists::widest);
+        sharing += stretch.last - stretch.first;
+        weights += (stretch.last - stretch.first) * (stretch.pairs_end - stretch.pairs);
       }
-      for (std::int32_t a = run.first; a < run.last; ++a) {
+      for (std::int32_t a = stretch.first; a < stretch.last; ++a) {
         std::vector<std::int32_t> found;
-        for (std::int32_t k = run.pairs; k < run.pairs_end; ++k) found.push_back(a + runs.offset[k]);
-        for (std::int64_t k = runs.begin[a]; k < runs.begin[a + 1]; ++k)
-          if (runs.index[k] != a) found.push_back(runs.index[k]);
+        for (std::int32_t k = stretch.pairs; k < stretch.pairs_end; ++k) found.push_back(a + lists.offset[k]);
+        for (std::int64_t k = lists.begin[a]; k < lists.begin[a + 1]; ++k)
+          if (lists.index[k] != a) found.push_back(lists.index[k]);
         CHECK(std::ranges::equal(found, list.of(a)));
-        CHECK((runs.begin[a + 1] - runs.begin[a]) % PairRuns::widest == 0);
+        CHECK((lists.begin[a + 1] - lists.begin[a]) % PairLists::widest == 0);
       }
     }
     CHECK(next == static_cast<std::int32_t>(model.particles.size()));
-    CHECK(runs.weights >= weights + std::ssize(runs.index));
+    CHECK(lists.weights >= weights + std::ssize(lists.index));
     return sharing / static_cast<double>(next);
   };
   CHECK(shared() == Approx(0.9));  // all but two at each end of a row

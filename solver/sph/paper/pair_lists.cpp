@@ -1,4 +1,4 @@
-#include "solver/sph/paper/pair_runs.hpp"
+#include "solver/sph/paper/pair_lists.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace porosph {
 namespace {
 
 constexpr std::int64_t filled_up(std::int64_t count) {
-  return (count + PairRuns::widest - 1) / PairRuns::widest * PairRuns::widest;
+  return (count + PairLists::widest - 1) / PairLists::widest * PairLists::widest;
 }
 
 /// The list of b is that of a, shifted.
@@ -20,7 +20,7 @@ class Builder {
   explicit Builder(const NeighbourList& list)
       : list_(list), count_(static_cast<std::int32_t>(list.begin.size()) - 1) {}
 
-  PairRuns build() {
+  PairLists build() {
     find_runs();
     fill_own();
     place_weights();
@@ -33,7 +33,7 @@ class Builder {
     for (std::int32_t first = 0, last = 0; first < count_; first = last) {
       last = first + 1;
       while (last < count_ && repeats(list_, last - 1, last)) ++last;
-      if (last - first < PairRuns::widest) continue;
+      if (last - first < PairLists::widest) continue;
       cut(own, first, false);
       cut(first, last, true);
       own = last;
@@ -43,23 +43,23 @@ class Builder {
 
   /// Into equal parts, none of them longer than the longest.
   void cut(std::int32_t first, std::int32_t last, bool shared) {
-    const std::int32_t size = last - first, parts = (size + PairRuns::longest - 1) / PairRuns::longest;
+    const std::int32_t size = last - first, parts = (size + PairLists::longest - 1) / PairLists::longest;
     if (size == 0) return;
     const auto pairs = static_cast<std::int32_t>(result_.offset.size());
     if (shared)
       for (const std::int32_t b : list_.of(first)) result_.offset.push_back(b - first);
     const auto pairs_end = static_cast<std::int32_t>(result_.offset.size());
     for (std::int32_t i = 0; i < parts; ++i)
-      result_.runs.push_back(
+      result_.stretches.push_back(
           {first + size * i / parts, first + size * (i + 1) / parts, shared, pairs, pairs_end, 0});
   }
 
   void fill_own() {
     result_.begin.assign(static_cast<std::size_t>(count_) + 1, 0);
-    for (const PairRuns::Run& run : result_.runs)
-      for (std::int32_t a = run.first; a < run.last; ++a) {
+    for (const PairLists::Stretch& stretch : result_.stretches)
+      for (std::int32_t a = stretch.first; a < stretch.last; ++a) {
         const auto neighbours = list_.of(a);
-        if (!run.shared) result_.index.insert(result_.index.end(), neighbours.begin(), neighbours.end());
+        if (!stretch.shared) result_.index.insert(result_.index.end(), neighbours.begin(), neighbours.end());
         result_.index.resize(static_cast<std::size_t>(filled_up(std::ssize(result_.index))), a);
         result_.begin[a + 1] = std::ssize(result_.index);
       }
@@ -67,19 +67,19 @@ class Builder {
 
   void place_weights() {
     result_.weights = std::ssize(result_.index);
-    for (PairRuns::Run& run : result_.runs) {
-      run.weights = result_.weights;
-      result_.weights += filled_up(run.last - run.first) * (run.pairs_end - run.pairs);
+    for (PairLists::Stretch& stretch : result_.stretches) {
+      stretch.weights = result_.weights;
+      result_.weights += filled_up(stretch.last - stretch.first) * (stretch.pairs_end - stretch.pairs);
     }
   }
 
   const NeighbourList& list_;
   std::int32_t count_;
-  PairRuns result_;
+  PairLists result_;
 };
 
 }  // namespace
 
-PairRuns make_pair_runs(const NeighbourList& list) { return Builder(list).build(); }
+PairLists make_pair_lists(const NeighbourList& list) { return Builder(list).build(); }
 
 }  // namespace porosph

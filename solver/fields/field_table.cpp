@@ -1,4 +1,4 @@
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 
 #include <algorithm>
 
