@@ -72,6 +72,7 @@ int safety_command(const Arguments& arguments);
 int stability_command(const Arguments& arguments);
 int bench_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
+int import_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
 int completion_command(const Arguments& arguments);
 int man_command(const Arguments& arguments);

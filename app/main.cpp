@@ -17,6 +17,7 @@ using namespace porosph::app;
 
 const std::vector<Command> commands = {
     {"init", "write a case to start from", init_command},
+    {"import", "make a case of a drawing", import_command},
     {"list", "name the cases that come with the program", list_command},
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},

@@ -9,6 +9,7 @@
 #include "solver/case/nearest.hpp"
 #include "solver/case/overrides.hpp"
 #include "solver/case/report.hpp"
+#include "solver/case/units.hpp"
 #include "solver/printable.hpp"
 
 namespace porosph {
@@ -55,7 +56,7 @@ class Reader : public Fields {
                  bool& is_word) override {
     const toml::node* node = key.is_used ? table_->get(key.name) : nullptr;
     const auto given = node ? node->value<std::string>() : std::nullopt;
-    if (!given) return is_word = is_word && !node, number(key, value, range);
+    if (!given || begins_as_number(*given)) return is_word = is_word && !node, number(key, value, range);
     known_.emplace_back(key.name);
     if (is_word = *given == word; !is_word)
       fail(key, path(key),
@@ -265,14 +266,21 @@ class Reader : public Fields {
     return given.has_value();
   }
 
+  // A number in `unit`, or text with a number and a unit of its own that is converted.
   std::optional<double> number_of(const Key& key, const std::string& at, const toml::node& node) {
-    const auto x = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!x)
-      fail(key, at, fmt::format("must be a number{}{}", key.unit.empty() ? "" : " in", unit(key)));
-    else if (!std::isfinite(*x))
+    return number_of(key, at, node, key.unit);
+  }
+  std::optional<double> number_of(const Key& key, const std::string& at, const toml::node& node,
+                                  std::string_view unit) {
+    const auto text = node.value_exact<std::string>();
+    const Measure given =
+        node.is_number() ? Measure{*node.value<double>(), ""} : read_measure(text.value_or(""), unit);
+    if (!given.fault.empty())
+      fail(key, at, given.fault);
+    else if (!std::isfinite(given.value))
       fail(key, at, "must be finite");
     else
-      return x;
+      return given.value;
     return std::nullopt;
   }
 
@@ -284,11 +292,12 @@ class Reader : public Fields {
     }
     for (int i = 0; i < 2; ++i) {
       const std::string here = fmt::format("{}[{}]", at, i);
-      const auto x = number_of(key, here, (*xy)[static_cast<std::size_t>(i)]);
+      const std::string_view unit = unit_of_component(key.unit, i);
+      const auto x = number_of(key, here, (*xy)[static_cast<std::size_t>(i)], unit);
       if (!x) return false;
       const Range range = between(-farthest, farthest);
       if (!range.contains(*x))
-        return fail(key, here, fmt::format("must be {}{}", range.text(), unit(key))), false;
+        return fail(key, here, fmt::format("must be {} {}", range.text(), unit)), false;
       value[i] = *x;
     }
     return true;
