@@ -92,6 +92,7 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.unbalanced_force_ratio =
       s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
   summary.energy_growth = outcome.energy_growth;
+  summary.energy = outcome.energy;
   if (s.showable()) {
     const Zigzag zigzag = measure_zigzag(s.model());
     summary.zigzag = {.rms = zigzag.rms,
@@ -130,6 +131,12 @@ std::string tell(const Summary& s) {
     text += fmt::format(
         "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
         s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
+  if (s.energy && s.energy->released > 0)
+    text += fmt::format(
+        "{:.4g} J/m released: {:.1f} % dissipated by the soil, {:.1f} % by the zero-energy "
+        "control, {:.1f} % unaccounted for\n",
+        s.energy->released, 100 * s.energy->plastic / s.energy->released,
+        100 * s.energy->control / s.energy->released, 100 * s.energy->unaccounted / s.energy->released);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
   for (const auto& [name, probe] : s.probes)

@@ -124,6 +124,33 @@ FieldSelection selection_of(const std::string& text) {
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
 }
 
+/// Shares of what gravity released; no row but the head where no run has soil that flows.
+Rows energy_table(const std::vector<LoadedRun>& runs) {
+  Rows rows = {{"Energy"}};
+  const auto add = [&](const char* name, auto&& part) {
+    std::vector<std::string> row = {name};
+    for (const LoadedRun& r : runs) {
+      const auto& energy = r.run.summary->energy;
+      row.push_back(energy ? part(*energy) : "–");
+    }
+    rows.push_back(std::move(row));
+  };
+  if (std::ranges::none_of(runs, [](const LoadedRun& r) { return r.run.summary->energy.has_value(); }))
+    return rows;
+  for (const LoadedRun& r : runs) rows[0].push_back(r.label);
+  using Budget = Summary::EnergyBudget;
+  add("released [J/m]", [](const Budget& e) { return number(e.released, "{:.4g}"); });
+  const auto share = [&](const char* name, double Budget::*part) {
+    add(name, [part](const Budget& e) { return number(100 * e.*part / e.released, "{:.2f} %"); });
+  };
+  share("kinetic now", &Budget::kinetic), share("elastic gained", &Budget::elastic);
+  share("dissipated by the soil", &Budget::plastic), share("by the zero-energy control", &Budget::control);
+  share("by the diffusion of stress", &Budget::diffusion);
+  share("by bulk viscosity", &Budget::bulk_viscosity);
+  share("unaccounted for", &Budget::unaccounted);
+  return rows;
+}
+
 Rows error_table(const std::vector<LoadedRun>& runs) {
   Rows rows = {{"Field"}};
   std::map<std::string, std::size_t> row_of;
@@ -305,6 +332,7 @@ std::string markdown_summary(const ReportInput& input, const std::vector<LoadedR
   for (const std::string& w : warnings) text += "- **" + html::escaped(w) + "**\n";
   if (!warnings.empty()) text += "\n";
   text += markdown(run_table(runs));
+  if (const Rows rows = energy_table(runs); rows.size() > 1) text += "### Energy\n\n" + markdown(rows);
   if (!input.thresholds.empty()) text += "### Thresholds\n\n" + markdown(checked.rows);
   if (const Rows rows = error_table(runs); rows.size() > 1)
     text += "### Errors against the exact solution\n\n" + markdown(rows);
@@ -383,6 +411,9 @@ std::string probe_section(const Material& m) {
 
 std::string difference_sections(const Material& m) {
   std::string body;
+  if (const Rows rows = energy_table(m.runs); rows.size() > 1)
+    body +=
+        html::section("Energy", "<p>Where the energy went that gravity released.</p>\n" + html::table(rows));
   if (const Rows rows = error_table(m.runs); rows.size() > 1)
     body += html::section(
         "Errors against the exact solution",

@@ -63,6 +63,18 @@ struct Summary {
     double x = 0, y = 0;           ///< where that is [m]
   };
   std::optional<Zigzag> zigzag;
+  /// Where the energy went that gravity released in soil that flows [J/m].
+  struct EnergyBudget {
+    double released = 0;        ///< by gravity, loads and water, with what evening out the particles put in
+    double kinetic = 0;         ///< now
+    double elastic = 0;         ///< gained
+    double plastic = 0;         ///< dissipated by the soil laws
+    double control = 0;         ///< by the zero-energy control
+    double diffusion = 0;       ///< by the diffusion of stress
+    double bulk_viscosity = 0;  ///< by bulk viscosity
+    double unaccounted = 0;     ///< the rest: damping, and what the integration loses or gains
+  };
+  std::optional<EnergyBudget> energy;
   /// What water did that flows.
   struct Seepage {
     std::vector<double> through_faces;  ///< into the soil through each [[water.face]] of the case [m2/s]

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/run/energy_budget.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 
 namespace porosph {
@@ -204,6 +205,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   const Simulation::Energy energy = s.energy();
   progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
   outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
+  if (showable) outcome.energy = energy_budget(s, progress.energy_at_start);
   return outcome;
 }
 

@@ -51,9 +51,10 @@ struct RunWatch {
 
 struct RunOutcome {
   RunStatus status = RunStatus::completed;
-  std::string message;          ///< where and why, unless completed
-  double energy_growth = 0;     ///< as in Summary; not a number where the state has broken down
-  double stepping_seconds = 0;  ///< wall time without what the watch did [s]
+  std::string message;       ///< where and why, unless completed
+  double energy_growth = 0;  ///< as in Summary; not a number where the state has broken down
+  std::optional<Summary::EnergyBudget> energy;  ///< as in Summary
+  double stepping_seconds = 0;                  ///< wall time without what the watch did [s]
 };
 
 /// Advances to the end, from the start or from where a restored `progress` left off. The last frame and

@@ -108,6 +108,14 @@ Json to_json(const Summary& summary) {
     put(zigzag, "largest", summary.zigzag->largest);
     put(zigzag, "x", summary.zigzag->x), put(zigzag, "y", summary.zigzag->y);
   }
+  if (summary.energy) {
+    const auto& e = *summary.energy;
+    Json& energy = json["energy_budget"];
+    put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
+    put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
+    put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
+    put(energy, "unaccounted", e.unaccounted);
+  }
   if (summary.seepage) {
     Json& seepage = json["seepage"];
     seepage["through_faces"] = summary.seepage->through_faces;
@@ -290,6 +298,12 @@ Summary summary_from(const Object& json) {
       const auto norms = errors.object(field);
       summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
     }
+  }
+  if (json.has("energy_budget")) {
+    const auto e = json.object("energy_budget");
+    summary.energy = {e.number("released"),       e.number("kinetic"),    e.number("elastic"),
+                      e.number("plastic"),        e.number("control"),    e.number("stress_diffusion"),
+                      e.number("bulk_viscosity"), e.number("unaccounted")};
   }
   if (json.has("zigzag")) {
     const auto zigzag = json.object("zigzag");

@@ -82,8 +82,8 @@ class Closing {
     }
   }
 
-  /// But for a few places, which are not worth the work. One row along a wall that the lattice does not fit is
-  /// more than that: left as it is, it makes the stress of a box 4 to 50 % wrong.
+  /// But for a few places, which are not worth the work. One row along a wall that the lattice does not fit
+  /// is more than that: left as it is, it makes the stress of a box 4 to 50 % wrong.
   bool is_lattice() const {
     const Vectors n = lopsidedness();
     const double irregular = deterministic_sum(particles_, [&](std::size_t a) {

@@ -129,7 +129,10 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
-  if (flow_.active()) flow_.leave_out_walls(reference_, model_.particles, out);
+  if (flow_.active()) {
+    flow_.leave_out_walls(reference_, model_.particles, out);
+    flow_.sample_control(reference_, model_.particles);
+  }
   spring_.soften_pairs(
       reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
 }
@@ -157,7 +160,10 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 }
 
 void ConsistentDynamics::strain(double dt) {
-  if (flow_.active()) flow_.diffuse_stress(reference_, model_, dt);
+  if (flow_.active()) {
+    flow_.count_control(model_.particles, dt);
+    flow_.diffuse_stress(reference_, model_, dt);
+  }
   fluxes_.take_velocities(reference_, model_.particles);
   const LargestChange largest = strain_all(dt);
   since_.strain = largest.strain;

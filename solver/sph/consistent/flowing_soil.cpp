@@ -12,7 +12,8 @@ namespace {
 using Vec4 = Eigen::Vector4d;
 using Gradient4 = Eigen::Matrix<double, 4, 2>;
 
-constexpr int fewest_neighbours = 7;  // of the soil: with fewer a particle needs the wall to be held
+constexpr int steps_between_samples = 16;  // of the control's work
+constexpr int fewest_neighbours = 7;       // of the soil: with fewer a particle needs the wall to be held
 
 Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
@@ -202,13 +203,58 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
   }
 }
 
+/// The control's part of what the kernels and leave_out_walls() sum.
+void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particles& p) {
+  sample_.acceleration.clear();
+  if (sample_.steps % steps_between_samples != 0) return;
+  const auto n = static_cast<std::int32_t>(r.particles());
+  std::vector<Mat2> gradient(n);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a)
+    gradient[a] = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+  sample_.acceleration.assign(n, Vec2::Zero());
+  sample_.velocity = p.velocity;
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) {
+    Vec2 force = Vec2::Zero();
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const Vec2 way(g.x, g.y);
+      if (b < n) {
+        force += (viscosity_[a] + viscosity_[b]) * g.w * (p.velocity[b] - p.velocity[a]) -
+                 (viscosity_[a] * gradient[a] + viscosity_[b] * gradient[b]) * way;
+        return;
+      }
+      const std::int32_t root = r.ghosts.root(b - n);
+      const Vec2 v = r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[root]));
+      if (!is_fixed_image(r, b))
+        force +=
+            (viscosity_[a] + viscosity_[b]) * g.w * (v - p.velocity[a]) -
+            (viscosity_[a] * gradient[a] + viscosity_[b] * r.ghosts.flux_from_root(b - n, gradient[root])) *
+                way;
+      else if (!blind_[a])
+        force += 2 * viscosity_[a] * (g.w * (v - p.velocity[a]) - gradient[a] * way);
+    });
+    sample_.acceleration[a] = force / (p.fill[a] * r.density[a]);
+  }
+}
+
+void FlowingSoil::count_control(const Particles& p, double dt) {
+  ++sample_.steps;
+  if (sample_.acceleration.empty()) return;
+  work_.control -=
+      steps_between_samples * dt * deterministic_sum(p.size(), [&](std::size_t a) {
+        return 0.5 * p.mass[a] * sample_.acceleration[a].dot(sample_.velocity[a] + p.velocity[a]);
+      });
+}
+
 void FlowingSoil::visit(StateArchive& state) {
   if (!active()) return;
   state.array("rest_density", rest_density_);
   state.array("control_viscosity", std::span(viscosity_).first(rest_density_.size()));
   state.array("shear_rate", shear_rate_);
   state.value("has_flowed", has_flowed_);
-  for (double* work : {&work_.plastic, &work_.viscous, &work_.diffusion, &work_.shift})
+  state.value("control_samples", sample_.steps);
+  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
     state.value("work", *work);
 }
 

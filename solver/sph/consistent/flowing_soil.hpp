@@ -48,11 +48,18 @@ class FlowingSoil {
   struct Work {
     double plastic = 0;    ///< dissipated by the laws
     double viscous = 0;    ///< by bulk viscosity
+    double control = 0;    ///< by the zero-energy control
     double diffusion = 0;  ///< lost from the elastic energy by the diffusion of stress
     double shift = 0;      ///< gravity's energy gained by moving particles
   };
   const Work& work() const { return work_; }
   void add_dissipation(double plastic, double viscous) { work_.plastic += plastic, work_.viscous += viscous; }
+
+  /// The work of the control is counted in one of some steps, for all of them: what it accelerates, with the
+  /// velocities before, when forces have been summed ...
+  void sample_control(const ReferenceConfiguration& reference, const Particles& particles);
+  /// ... and its work once these have changed the velocities, over a step dt [s].
+  void count_control(const Particles& particles, double dt);
 
   void visit(StateArchive& state);
 
@@ -70,6 +77,11 @@ class FlowingSoil {
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those
+  struct ControlSample {
+    std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
+    std::int64_t steps = 0;                    ///< counted so far
+  };
+  ControlSample sample_;
   bool has_flowed_ = false;
   Work work_;
 };
