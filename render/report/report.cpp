@@ -213,7 +213,7 @@ bool all_have(const std::vector<LoadedRun>& runs, const FieldSelection& field) {
 
 std::string pictures_of(const std::vector<ReportPicture>& pictures) {
   std::string text;
-  for (const ReportPicture& p : pictures) text += html::figure(p.file, p.description, p.caption);
+  for (const ReportPicture& p : pictures) text += html::figure(p.file, p.description, p.caption, p.panels);
   return text;
 }
 
@@ -312,6 +312,54 @@ std::string markdown_summary(const ReportInput& input, const std::vector<LoadedR
   return text + html::escaped(input.made) + "\n";
 }
 
+/// What is drawn: as asked for, else what all runs have of the usual ones, the vertical effective stress
+/// first.
+std::vector<ReportField> fields_of(const ReportInput& input, const std::vector<LoadedRun>& runs) {
+  if (!input.fields.empty()) {
+    for (const ReportField& shown : input.fields)
+      for (const LoadedRun& r : runs) values_of(r.last, shown.field);  // says what is missing
+    return input.fields;
+  }
+  std::vector<ReportField> fields;
+  for (const FieldSelection& field :
+       {FieldSelection{"EffectiveStress", "YY"}, FieldSelection{"TotalStress", "YY"},
+        FieldSelection{"Displacement", "Y"}})
+    if (all_have(runs, field)) fields.push_back({field, {}});
+  return fields;
+}
+
+/// Each field of all runs, what differs in the first (in all that were asked for), and a slider for two runs.
+std::string fields_part(const std::vector<LoadedRun>& runs, const ReportInput& input,
+                        const std::vector<ReportField>& fields, const fs::path& folder) {
+  std::string text;
+  for (const ReportField& shown : fields) {
+    text += pictures_of({draw_contours(runs, input.fem, shown, folder)});
+    if (&shown != &fields.front() && input.fields.empty()) continue;
+    if (auto picture = draw_differences(runs, input.fem, input.left_out, shown.field, folder))
+      text += pictures_of({std::move(*picture)});
+  }
+  if (runs.size() != 2 || fields.empty()) return text;
+  const std::vector<html::Instant> pair = draw_pair(runs[0], runs[1], fields.front(), folder);
+  return text + "<h3>One against the other</h3>\n" + html::slider(pair[0], pair[1]);
+}
+
+/// Six instants, and a player, of each run that has frames between its ends; narrow windows have the player
+/// alone.
+std::string development_part(const std::vector<LoadedRun>& runs, const ReportField& shown,
+                             const ReportInput& input, const fs::path& folder) {
+  const bool plays = input.instants > 1;
+  std::string text;
+  for (const LoadedRun& r : runs) {
+    if (r.run.series.frames.size() < 3) continue;
+    const std::string six = pictures_of({draw_development(r, shown, !plays, folder)});
+    text += plays ? "<div class=\"wide\">\n" + six + "</div>\n" : six;
+    if (plays)
+      text += html::player(draw_instants(r, shown, input.instants, folder),
+                           shown_name(shown.field) + " in run " + r.label);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const fs::path& folder) {
@@ -349,22 +397,18 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   body += html::section("Runs", html::table(run_table(runs)));
   body += html::section("The case", pictures_of({draw_case(runs.front(), folder)}));
 
-  std::vector<ReportPicture> contours;
-  for (const FieldSelection& field :
-       {FieldSelection{"TotalStress", "YY"}, FieldSelection{"EffectiveStress", "YY"},
-        FieldSelection{"Displacement", "Y"}})
-    if (all_have(runs, field)) contours.push_back(draw_contours(runs, input.fem, field, folder));
-  if (all_have(runs, {"EffectiveStress", "YY"}))
-    if (auto picture = draw_differences(runs, input.fem, input.left_out, {"EffectiveStress", "YY"}, folder))
-      contours.push_back(std::move(*picture));
-  body += html::section("Stress and displacement", pictures_of(contours));
-  if (all_have(runs, {"EffectiveStress", "YY"}))
-    if (auto picture = draw_sections(runs, input.fem, folder))
-      body += html::section("Stress with height", pictures_of({std::move(*picture)}) +
-                                                      "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
+  const std::vector<ReportField> fields = fields_of(input, runs);
+  body += html::section(input.fields.empty() ? "Stress and displacement" : "Fields",
+                        fields_part(runs, input, fields, folder));
+  if (!fields.empty())
+    if (auto picture = draw_sections(runs, input.fem, input.sections, fields.front().field, folder))
+      body += html::section("Sections", pictures_of({std::move(*picture)}) +
+                                            "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
 
   std::vector<ReportPicture> histories;
   if (auto picture = draw_histories(input.runs, labels, folder)) histories.push_back(std::move(*picture));
+  for (const auto& draw : {draw_settlement, draw_stress_paths})
+    if (auto picture = draw(input.runs, labels, folder)) histories.push_back(std::move(*picture));
   if (input.fem)
     for (const ProbeCase& probe : scene.probes)
       if (auto picture = draw_probe(runs, *input.fem, probe, folder))
@@ -389,11 +433,9 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   }
   if (!input.thresholds.empty()) body += html::section("Thresholds", html::table(checked.rows, false));
 
-  std::vector<ReportPicture> developments;
-  for (const LoadedRun& r : runs)
-    if (all_have({r}, {"EffectiveStress", "YY"}) && r.run.series.frames.size() > 2)
-      developments.push_back(draw_development(r, {"EffectiveStress", "YY"}, folder));
-  if (!developments.empty()) body += html::section("How the stress develops", pictures_of(developments));
+  if (const std::string text = fields.empty() ? "" : development_part(runs, fields.front(), input, folder);
+      !text.empty())
+    body += html::section("How it develops", text);
 
   if (const Rows rows = settings_table(runs); rows.size() > 1)
     body += html::section("Settings that differ", html::table(rows, false));
