@@ -64,6 +64,8 @@ int run_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int render_command(const Arguments& arguments);
 int section_command(const Arguments& arguments);
+int grid_command(const Arguments& arguments);
+int history_command(const Arguments& arguments);
 int schema_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);

@@ -55,8 +55,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
   positional.add("drawing", 1);
   po::variables_map values;
   if (!parse(arguments, options, positional, "import FILE.dxf [options]",
-             "  porosph import cases/drawings/levee.dxf --out levee.toml\n"
-             "  porosph import cases/drawings/levee.dxf --out fine.toml --spacing \"25 cm\" --skip probes\n",
+             "  porosph import cases/drawings/levee.dxf --skip frame --out levee.toml\n"
+             "  porosph import cases/drawings/levee.dxf --skip frame --skip probes --spacing \"25 cm\" --out "
+             "fine.toml\n",
              values))
     return std::nullopt;
   return o;

@@ -29,6 +29,8 @@ const std::vector<Command> commands = {
 #ifdef POROSPH_HAS_RENDER
     {"render", "draw a picture of a series", render_command},
     {"section", "draw values along a line through the soil", section_command},
+    {"grid", "write values of a run on a regular grid", grid_command},
+    {"history", "draw what probes recorded: stress, settlement, stress paths", history_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
     {"bench", "measure speed, and run time against error", bench_command},

@@ -59,8 +59,9 @@ void remove_results(const fs::path& folder) {
 void remove_what_is_of_another(const fs::path& folder, const std::string& case_text) {
   if (!is_of_another(folder, case_text)) return;
   remove_results(folder);
-  for (const char* name : {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png",
-                           "mechanism.png", "slip_surfaces.csv", "slip_surfaces.vtp"})
+  for (const char* name :
+       {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png", "mechanism.png",
+        "slip_surfaces.csv", "slip_surfaces.vtp", "index.html", "study.json"})
     remove_file(folder / name);
 }
 

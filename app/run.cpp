@@ -56,13 +56,14 @@ std::optional<Options> read_options(const Arguments& arguments) {
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
-  if (!parse(arguments, options, positional, "run CASE.toml [options]",
-             "  porosph run cases/foundation.toml\n"
-             "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
-             "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n"
-             "  porosph run cases/foundation.toml --resume\n"
-             "  porosph run cases/foundation.toml --resume --set time.end=8\n",
-             values))
+  if (!parse(
+          arguments, options, positional, "run CASE.toml [options]",
+          "  porosph run cases/foundation.toml\n"
+          "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
+          "  porosph run cases/foundation.toml --set particles.spacing=0.1 --no-frames --out results/fine\n"
+          "  porosph run cases/foundation.toml --resume\n"
+          "  porosph run cases/foundation.toml --resume --set time.end=8\n",
+          values))
     return std::nullopt;
   o.case_file = find_case(case_file);
   o.folder =

@@ -22,6 +22,7 @@
 #include "vtk_io/line_vtp.hpp"
 #endif
 #ifdef POROSPH_HAS_RENDER
+#include "render/report/safety_study.hpp"
 #include "render/run/safety_pictures.hpp"
 #endif
 
@@ -64,7 +65,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "safety CASE.toml [options]",
              "  porosph safety safety/griffiths_lane_1\n"
              "  porosph safety safety/griffiths_lane_1 --method limit-equilibrium\n"
-             "  porosph safety safety/griffiths_lane_1 --set soil.slope.cohesion=5e3 --bracket 0.02\n",
+             "  porosph safety safety/griffiths_lane_1 --set \"soil.slope.cohesion=5 kPa\" --out "
+             "results/weaker\n",
              values))
     return std::nullopt;
   if (o.method != "both" && o.method != "strength-reduction" && o.method != "limit-equilibrium")
@@ -119,13 +121,6 @@ void find_by_particles(const Case& scene, const Options& o, SafetyAnswer& answer
   answer.particle_seconds = watch.seconds();
 }
 
-/// The bracket as people say it.
-std::string bracket_text(const StrengthReduction& found) {
-  if (found.fails_at == never) return fmt::format("above {:.4g}", found.stable_at);
-  if (found.stable_at == 0) return fmt::format("below {:.4g}", found.fails_at);
-  return fmt::format("{:.4g} to {:.4g}", found.stable_at, found.fails_at);
-}
-
 void tell(const SafetyAnswer& answer) {
   say(stdout, "\nfactor of safety\n");
   const auto row = [](const std::string& method, const std::string& factor, double seconds) {
@@ -140,7 +135,8 @@ void tell(const SafetyAnswer& answer) {
     say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
 }
 
-void write(const Case& scene, const SafetyAnswer& answer, const fs::path& folder) {
+void write(const Case& scene, const SafetyAnswer& answer, [[maybe_unused]] const std::string& command,
+           const fs::path& folder) {
   if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
   if (answer.limit_equilibrium) {
     write_slip_surfaces(folder / "slip_surfaces.csv", answer);
@@ -155,6 +151,7 @@ void write(const Case& scene, const SafetyAnswer& answer, const fs::path& folder
 #ifdef POROSPH_HAS_RENDER
   if (answer.particles) save_safety_curve(answer, folder / "safety.png");
   save_mechanism(scene, answer, folder / "mechanism.png");
+  write_study(safety_study(answer, command), folder);
 #endif
   write_safety_summary(folder / "safety.json", answer);
 }
@@ -187,7 +184,7 @@ int safety_command(const Arguments& arguments) {
   const std::string apart = disagreement(answer);
   if (!apart.empty()) answer.warnings.push_back(apart);
   take_folder(folder, case_text);
-  write(scene, answer, folder);
+  write(scene, answer, command_line("safety", arguments), folder);
   if (!o->quiet) {
     tell(answer);
     say(stdout, folder.string() + "\n");

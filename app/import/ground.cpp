@@ -217,7 +217,8 @@ std::vector<Stretch> outline_of(const std::vector<SoilCase>& soils, double snap)
 }
 
 void require_known_layers(const Drawing& drawing, const Options& options) {
-  for (const auto& [layer, role] : options.roles) {
+  for (const auto& given : options.roles) {
+    const std::string& layer = given.first;
     if (std::ranges::any_of(drawing.shapes, [&](const Shape& s) { return s.layer == layer; })) continue;
     std::set<std::string> there;
     for (const Shape& shape : drawing.shapes) there.insert(shape.layer);

@@ -128,7 +128,8 @@ TEST_CASE("drawings that cannot be taken are refused by name", "[import]") {
   CHECK_THAT(refused("a.svg", box), Contains("must end in .dxf"));
   CHECK_THAT(place.porosph("import none.dxf").err, Contains("none.dxf: is not a readable file"));
   place.write("a.wkt", box);
-  CHECK_THAT(place.porosph("import a.wkt --snap '1 kPa'").err, Contains("'kPa', which does not convert to m"));
+  CHECK_THAT(place.porosph("import a.wkt --snap '1 kPa'").err,
+             Contains("'kPa', which does not convert to m"));
   CHECK_THAT(place.porosph("import a.wkt --unit stone").err, Contains("must be one of m, km"));
 }
 
