@@ -22,6 +22,7 @@ const std::vector<Command> commands = {
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
     {"safety", "find the factor of safety of a case", safety_command},
+    {"element", "test the soils of a case as a laboratory does", element_command},
     {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
