@@ -59,6 +59,7 @@ class SchemaWriter : public Fields {
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string> allowed) override {
     add(key, list_of(one_word_of(allowed)));
   }
+  void texts(const Key& key, std::vector<std::string>&) override { add(key, list_of({{"type", "string"}})); }
   void point(const Key& key, Point&) override { add(key, pair()); }
   void pairs(const Key& key, std::vector<Point>&) override { add(key, list_of(pair())); }
   void polygon(const Key& key, Polygon&) override { add(key, list_of(pair(), 3)); }

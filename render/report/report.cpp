@@ -14,6 +14,7 @@
 #include "render/report/html.hpp"
 #include "render/report/report_pictures.hpp"
 #include "render/report/settings.hpp"
+#include "render/report/stages_section.hpp"
 #include "render/report/study.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
@@ -347,6 +348,9 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   const std::string notes =
       warnings.empty() ? "" : "<div class=\"warnings\" role=\"note\">" + list(warnings) + "</div>\n";
   body += html::section("Runs", html::table(run_table(runs)));
+  std::vector<Summary> told;
+  for (const LoadedRun& r : runs) told.push_back(*r.run.summary);
+  body += stages_section(labels, told);
   body += html::section("The case", pictures_of({draw_case(runs.front(), folder)}));
 
   std::vector<ReportPicture> contours;
@@ -376,8 +380,6 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
     body += html::section(
         "Errors against the exact solution",
         "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
-  std::vector<Summary> told;
-  for (const LoadedRun& r : runs) told.push_back(*r.run.summary);
   body += fem_check_section(labels, told);
   if (input.fem) {
     std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
