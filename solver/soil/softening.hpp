@@ -9,7 +9,7 @@ namespace porosph {
   const double y = (x < 40 ? x : 40) / 64;
   double sum = 1;  // Taylor's series of exp(-y), y <= 0.625
 #pragma GCC unroll 15
-  for (int k = 15; k > 0; --k) sum = 1 - y / k * sum;
+  for (int k = 15; k > 0; --k) sum = 1 - y * (1.0 / k) * sum;
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) sum *= sum;
   return sum;

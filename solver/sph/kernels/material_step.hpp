@@ -160,6 +160,33 @@ template <SoilLaw Law>
           .viscous = volume * resisted};
 }
 
+/// What the loops over a tile's particles find: a maximum of each of the first two, a sum of the others.
+struct Found {
+  double &strain, &speed_squared, &plastic, &viscous;
+};
+
+/// Particle i of the tile. In a function of its own, because what a loop's body itself declares and hands on
+/// by reference, such as the history, stays in memory, and the loop does not become vector code.
+template <SoilLaw Law, Watch watch>
+[[gnu::always_inline]] inline void particle_step(const TileStep& t, std::int32_t i, const Law& law,
+                                                 double* const* history, double elastic, const Found& found) {
+  const Gradient gradient = t.gradient(i);
+  typename Law::History q = load_history<Law>(history, i);
+  const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+  if (watch != Watch::nothing) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
+  store_history<Law>(history, i, q);
+  t.store_stress(i, s);
+  const TileStep::Deformed f = t.deform(i, found.strain, found.speed_squared);
+  const double modulus = law.constrained_modulus(s, q);
+  double mu = t.mu;
+  if (watch == Watch::flow) {
+    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, f.density, modulus);
+    mu = flow.mu;
+    found.plastic += flow.plastic, found.viscous += flow.viscous;
+  }
+  t.write_flux(i, s, f, modulus, gradient.trace(), t.controlled(i, f, elastic), mu);
+}
+
 /// Particles first to last - 1 of the tile, which have this law. `elastic`: k of the control in this soil.
 template <SoilLaw Law, Watch watch>
 LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32_t last, const LawView& view,
@@ -170,23 +197,8 @@ LargestChange material_step(const TileStep& tile, std::int32_t first, std::int32
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
   double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
 #pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
-  for (std::int32_t i = first; i < last; ++i) {
-    const Gradient gradient = t.gradient(i);
-    typename Law::History q = load_history<Law>(history, i);
-    const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
-    if (watch != Watch::nothing) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
-    store_history<Law>(history, i, q);
-    t.store_stress(i, s);
-    const TileStep::Deformed f = t.deform(i, strain, speed_squared);
-    const double modulus = law.constrained_modulus(s, q);
-    double mu = t.mu;
-    if (watch == Watch::flow) {
-      const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, f.density, modulus);
-      mu = flow.mu;
-      plastic += flow.plastic, viscous += flow.viscous;
-    }
-    t.write_flux(i, s, f, modulus, gradient.trace(), t.controlled(i, f, elastic), mu);
-  }
+  for (std::int32_t i = first; i < last; ++i)
+    particle_step<Law, watch>(t, i, law, history, elastic, {strain, speed_squared, plastic, viscous});
   return {strain, speed_squared, plastic, viscous};
 }
 
@@ -236,6 +248,31 @@ struct OwnSideStep {
   const double *a[16], *tie[4];
 };
 
+/// As particle_step where another soil is near: particle i of the tile, and j of the stretch.
+template <SoilLaw Law, Watch watch>
+[[gnu::always_inline]] inline void particle_step_at_interface(const TileStep& t, const OwnSideStep& side,
+                                                              std::int32_t i, std::int32_t j, const Law& law,
+                                                              double* const* history, const Found& found) {
+  const Gradient gradient = side.gradient(j, t.gradient(i));
+  typename Law::History q = load_history<Law>(history, i);
+  const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+  const bool watched = watch != Watch::nothing;
+  const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
+  if (watched) t.yields[i] = yields;
+  store_history<Law>(history, i, q);
+  t.store_stress(i, s);
+  const TileStep::Deformed f = t.deform(i, found.strain, found.speed_squared);
+  const double modulus = law.constrained_modulus(s, q);
+  double mu = t.mu;
+  if (watch == Watch::flow) {
+    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, f.density, modulus);
+    mu = flow.mu;
+    found.plastic += flow.plastic, found.viscous += flow.viscous;
+  }
+  t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, modulus, gradient.trace(),
+               side.controlled(t, i, j, f), mu);
+}
+
 /// As material_step where another soil is near. `place` of the first particle in the own sides.
 template <SoilLaw Law, Watch watch>
 LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, std::int32_t first,
@@ -247,27 +284,9 @@ LargestChange interface_step(const ConsistentArrays& c, const TileStep& tile, st
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
   double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
 #pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
-  for (std::int32_t j = 0; j < last - first; ++j) {
-    const std::int32_t i = first + j;
-    const Gradient gradient = side.gradient(j, t.gradient(i));
-    typename Law::History q = load_history<Law>(history, i);
-    const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
-    const bool watched = watch != Watch::nothing;
-    const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
-    if (watched) t.yields[i] = yields;
-    store_history<Law>(history, i, q);
-    t.store_stress(i, s);
-    const TileStep::Deformed f = t.deform(i, strain, speed_squared);
-    const double modulus = law.constrained_modulus(s, q);
-    double mu = t.mu;
-    if (watch == Watch::flow) {
-      const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, f.density, modulus);
-      mu = flow.mu;
-      plastic += flow.plastic, viscous += flow.viscous;
-    }
-    t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, modulus, gradient.trace(),
-                 side.controlled(t, i, j, f), mu);
-  }
+  for (std::int32_t j = 0; j < last - first; ++j)
+    particle_step_at_interface<Law, watch>(t, side, first + j, j, law, history,
+                                           {strain, speed_squared, plastic, viscous});
   return {strain, speed_squared, plastic, viscous};
 }
 

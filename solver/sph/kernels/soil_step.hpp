@@ -35,25 +35,25 @@ inline void for_each_soil(const SoilView& soils, std::int32_t first, std::int32_
   }
 }
 
-/// History of particle i, and back.
+/// History of particle i, and back. Number by number: what is copied as a whole stays in memory, and the
+/// loop around it does not become vector code.
 template <SoilLaw Law>
-inline typename Law::History load_history(double* const* fields, std::int32_t i) {
+[[gnu::always_inline]] inline typename Law::History load_history(double* const* fields, std::int32_t i) {
   typename Law::History q;
-  if constexpr (history_size < Law >> 0) {
-    static_assert(sizeof q == history_size<Law> * sizeof(double));
-    double numbers[history_size<Law>];
-    for (std::size_t k = 0; k < history_size<Law>; ++k) numbers[k] = fields[k][i];
-    __builtin_memcpy(&q, numbers, sizeof q);
+  static_assert(history_size<Law> == 0 || sizeof q == history_size<Law> * sizeof(double));
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((reinterpret_cast<double*>(&q)[k] = fields[k][i]), ...);
   }
+  (std::make_index_sequence<history_size<Law>>());
   return q;
 }
 template <SoilLaw Law>
-inline void store_history(double* const* fields, std::int32_t i, const typename Law::History& q) {
-  if constexpr (history_size < Law >> 0) {
-    double numbers[history_size<Law>];
-    __builtin_memcpy(numbers, &q, sizeof q);
-    for (std::size_t k = 0; k < history_size<Law>; ++k) fields[k][i] = numbers[k];
+[[gnu::always_inline]] inline void store_history(double* const* fields, std::int32_t i,
+                                                 const typename Law::History& q) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((fields[k][i] = reinterpret_cast<const double*>(&q)[k]), ...);
   }
+  (std::make_index_sequence<history_size<Law>>());
 }
 
 /// Calls use.template operator()<Law>() with the law of this place in the list.
