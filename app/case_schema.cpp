@@ -69,6 +69,7 @@ class SchemaWriter : public Fields {
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string> allowed) override {
     add(key, list_of(one_word_of(allowed)));
   }
+  void texts(const Key& key, std::vector<std::string>&) override { add(key, list_of({{"type", "string"}})); }
   void point(const Key& key, Point&) override { add(key, pair(key)); }
   void pairs(const Key& key, std::vector<Point>&) override { add(key, list_of(pair(key))); }
   void polygon(const Key& key, Polygon&) override { add(key, list_of(pair(key), 3)); }

@@ -13,6 +13,7 @@
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/stages.hpp"
 #include "solver/printable.hpp"
 #include "solver/reference/limit_equilibrium/section_of_case.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -80,6 +81,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
 }
 
 void check_soils(const Case& scene) {
+  require_plain(scene, "porosph safety");
   if (!scene.loading.gravity_applied)
     throw UsageError(
         "safety: loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety");
@@ -93,6 +95,10 @@ void check_soils(const Case& scene) {
 
 /// Limit equilibrium takes pore pressure from a level; that of flow it does not know.
 void check_water(const Case& scene, const Options& o) {
+  if (scene.loading.horizontal != 0 && o.by_limit_equilibrium())
+    throw UsageError(
+        "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
+        "--method strength-reduction does");
   if (!scene.water.flows()) return;
   if (!o.by_particles())
     throw UsageError(

@@ -14,6 +14,7 @@
 #include "render/report/html.hpp"
 #include "render/report/report_pictures.hpp"
 #include "render/report/settings.hpp"
+#include "render/report/stages_section.hpp"
 #include "render/report/study.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
@@ -421,6 +422,12 @@ std::string development_part(const std::vector<LoadedRun>& runs, const ReportFie
     return m;
   }
 
+  std::vector<Summary> summaries_of(const Material& m) {
+    std::vector<Summary> told;
+    for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+    return told;
+  }
+
   std::string head_of(const Material& m) {
     return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
            html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
@@ -484,6 +491,7 @@ std::string development_part(const std::vector<LoadedRun>& runs, const ReportFie
 
   std::string body_of(const Material& m) {
     std::string body = html::section("Runs", html::table(run_table(m.runs)));
+    body += stages_section(m.labels, summaries_of(m));
     body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
     body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
     if (const Rows rows = settings_table(m.runs); rows.size() > 1)

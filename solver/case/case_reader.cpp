@@ -2,9 +2,12 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "solver/case/case_file.hpp"
+#include "solver/case/change_settings.hpp"
 #include "solver/case/check_case.hpp"
+#include "solver/case/check_stages.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/nearest.hpp"
 #include "solver/case/overrides.hpp"
@@ -134,6 +137,22 @@ class Reader : public Fields {
       } else {
         values.push_back(*word);
       }
+    }
+  }
+
+  void texts(const Key& key, std::vector<std::string>& values) override {
+    const toml::array* items = array(key, "a list of text");
+    if (!items) return;
+    values.clear();
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      const auto word = items->get(i)->value<std::string>();
+      if (!items->get(i)->is_string() || !word)
+        fail(key, at, "must be text");
+      else if (const std::string control = control_character(*word); !control.empty())
+        fail(key, at, fmt::format("must not hold control characters, but has {}", control));
+      else
+        values.push_back(*word);
     }
   }
 
@@ -401,13 +420,50 @@ Case parse_case(std::string_view text, std::string_view file_name,
   Reader reader(root, report);
   reader.read(scene);
   for (const CaseIssue& issue : check_settings(scene)) report.add(issue.key, issue.message);
-  if (reader.lengths_are_right())
+  if (reader.lengths_are_right() && scene.stages.empty())
     for (const CaseIssue& issue : check_geometry(scene)) report.add(issue.key, issue.message);
+  if (!scene.stages.empty() && report.size() == 0)
+    for (const CaseIssue& issue : check_stages(scene)) report.add(issue.key, issue.message);
 
   std::string errors = report.text();
   for (const std::string& error : wrong_overrides) errors += (errors.empty() ? "" : "\n") + error;
   if (!errors.empty()) throw CaseError(errors);
   return scene;
+}
+
+/// Of the ways to give the water its level only the one that is set now counts.
+static void leave_one_level(toml::table& root, const std::vector<Override>& applied) {
+  static const std::vector<std::string> ways = {"level", "stretches", "level_over_time"};
+  toml::table* water = root.get_as<toml::table>("water");
+  for (const Override& o : applied)
+    for (const std::string& way : ways)
+      if (water != nullptr && o.key == "water." + way)
+        for (const std::string& other : ways)
+          if (other != way) water->erase(other);
+}
+
+Case with_settings(const Case& scene, const std::vector<std::string>& settings,
+                   std::vector<SettingFault>& faults) {
+  toml::table root = toml::parse(write_case(scene));
+  std::vector<std::string> wrong;
+  const std::vector<Override> applied = apply_overrides(root, settings, wrong);
+  leave_one_level(root, applied);
+  Case changed;
+  Report report("the case with this stage", root, applied);
+  Reader(root, report).read(changed);
+  for (const CaseIssue& issue : check_settings(changed)) report.add(issue.key, issue.message);
+  std::istringstream lines(report.text());
+  for (std::string line; std::getline(lines, line);) wrong.push_back(line);
+  for (const std::string& line :
+       wrong) {  // each begins with the setting that it is about, if it is about one
+    SettingFault fault{-1, line};
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const std::string head = fmt::format("override '{}': ", printable(settings[i]));
+      if (line.starts_with(head)) fault = {static_cast<int>(i), line.substr(head.size())};
+    }
+    faults.push_back(std::move(fault));
+  }
+  return changed;
 }
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -49,6 +49,7 @@ class Documenter : public Fields {
     row(key, "list of text", fmt::format("{}", fmt::join(values, ", ")),
         fmt::format("`{}`", fmt::join(allowed, "`, `")));
   }
+  void texts(const Key& key, std::vector<std::string>&) override { row(key, "list of text", "[]", "any"); }
   void point(const Key& key, Point& value) override {
     row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");
   }

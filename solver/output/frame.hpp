@@ -96,6 +96,17 @@ struct Summary {
   std::map<std::string, Probe> probes;
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  /// One stage of a case that has them.
+  struct Stage {
+    std::string name;
+    std::string ended;                         ///< "time", "rest", "failure", "unstable" or "interrupted"
+    double start = 0, time = 0;                ///< when it began and ended [s]
+    std::int64_t steps = 0, particles = 0;     ///< of this stage
+    double unbalanced_force_ratio = 0;         ///< at its end [-]
+    double largest_displacement = 0;           ///< at its end, as displacements count [m]
+    std::map<std::string, Probe> probes = {};  ///< at its end
+  };
+  std::vector<Stage> stages;                   ///< that have been computed; empty where the case has none
   std::optional<FemCheck> finite_elements;     ///< what the run is held against by itself
   std::vector<std::string> warnings;           ///< that the run began with
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
