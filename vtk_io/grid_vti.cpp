@@ -12,7 +12,7 @@
 
 #include <limits>
 
-#include "solver/particles/field_table.hpp"
+#include "solver/fields/field_table.hpp"
 #include "vtk_io/particle_data.hpp"
 #include "vtk_io/write_appended.hpp"
 

@@ -387,126 +387,127 @@ std::string development_part(const std::vector<LoadedRun>& runs, const ReportFie
                            shown_name(shown.field) + " in run " + r.label);
   }
   return text;
+}
 
-  /// All that the page is made of.
-  struct Material {
-    const ReportInput& input;
-    const fs::path& folder;
-    std::vector<std::string> labels;
-    std::vector<LoadedRun> runs;
-    std::vector<std::vector<FieldNorms>> fem;
-    std::vector<Json> summaries;
-    Checked checked;
-    std::vector<std::string> warnings;
-    std::vector<ReportField> fields;  ///< that are drawn
+/// All that the page is made of.
+struct Material {
+  const ReportInput& input;
+  const fs::path& folder;
+  std::vector<std::string> labels;
+  std::vector<LoadedRun> runs;
+  std::vector<std::vector<FieldNorms>> fem;
+  std::vector<Json> summaries;
+  Checked checked;
+  std::vector<std::string> warnings;
+  std::vector<ReportField> fields;  ///< that are drawn
 
-    const Case& scene() const { return *runs.front().run.scene; }
-  };
+  const Case& scene() const { return *runs.front().run.scene; }
+};
 
-  Material load(const ReportInput& input, const fs::path& folder) {
-    Material m{input, folder, run_labels(input.runs), {}, {}, {}, {}, {}, {}};
-    for (std::size_t i = 0; i < input.runs.size(); ++i) {
-      const std::size_t last = input.runs[i].series.frames.size() - 1;
-      m.runs.push_back({input.runs[i], m.labels[i], frame_of(input.runs[i], last)});
-    }
-    m.fem.resize(m.runs.size());
-    for (std::size_t i = 0; i < m.runs.size(); ++i) {
-      if (input.fem) m.fem[i] = fem_norms(m.runs[i].last, *input.fem, input.left_out);
-      m.summaries.push_back(summary_json(m.runs[i], m.fem[i]));
-    }
-    m.checked = check_all(input.thresholds, m.runs, m.summaries);
-    for (const std::string& w : m.checked.failed) m.warnings.push_back("Threshold failed: " + w);
-    for (const LoadedRun& r : m.runs)
-      for (std::string& w : warnings_of(r)) m.warnings.push_back(std::move(w));
-    m.fields = fields_of(input, m.runs);
-    return m;
+Material load(const ReportInput& input, const fs::path& folder) {
+  Material m{input, folder, run_labels(input.runs), {}, {}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < input.runs.size(); ++i) {
+    const std::size_t last = input.runs[i].series.frames.size() - 1;
+    m.runs.push_back({input.runs[i], m.labels[i], frame_of(input.runs[i], last)});
   }
-
-  std::vector<Summary> summaries_of(const Material& m) {
-    std::vector<Summary> told;
-    for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
-    return told;
+  m.fem.resize(m.runs.size());
+  for (std::size_t i = 0; i < m.runs.size(); ++i) {
+    if (input.fem) m.fem[i] = fem_norms(m.runs[i].last, *input.fem, input.left_out);
+    m.summaries.push_back(summary_json(m.runs[i], m.fem[i]));
   }
+  m.checked = check_all(input.thresholds, m.runs, m.summaries);
+  for (const std::string& w : m.checked.failed) m.warnings.push_back("Threshold failed: " + w);
+  for (const LoadedRun& r : m.runs)
+    for (std::string& w : warnings_of(r)) m.warnings.push_back(std::move(w));
+  m.fields = fields_of(input, m.runs);
+  return m;
+}
 
-  std::string head_of(const Material& m) {
-    return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
-           html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
-                                     m.runs.front().run.summary->particles, fmt::join(m.labels, ", "))) +
-           "</p>\n" + (m.input.made.empty() ? "" : html::paragraph(m.input.made));
-  }
+std::vector<Summary> summaries_of(const Material& m) {
+  std::vector<Summary> told;
+  for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+  return told;
+}
 
-  std::string stress_sections(const Material& m) {
-    const std::string shown = fields_part(m.runs, m.input, m.fields, m.folder);
-    std::string body = html::section(m.input.fields.empty() ? "Stress and displacement" : "Fields", shown);
-    if (m.fields.empty()) return body;
-    if (auto picture = draw_sections(m.runs, m.input.fem, m.input.sections, m.fields.front().field, m.folder))
-      body += html::section("Sections", pictures_of({std::move(*picture)}) +
-                                            "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
-    return body;
-  }
+std::string head_of(const Material& m) {
+  return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
+         html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
+                                   m.runs.front().run.summary->particles, fmt::join(m.labels, ", "))) +
+         "</p>\n" + (m.input.made.empty() ? "" : html::paragraph(m.input.made));
+}
 
-  std::string probe_section(const Material& m) {
-    std::vector<ReportPicture> histories;
-    if (auto picture = draw_histories(m.input.runs, m.labels, m.folder))
-      histories.push_back(std::move(*picture));
-    for (const auto& draw : {draw_settlement, draw_stress_paths})
-      if (auto picture = draw(m.input.runs, m.labels, m.folder)) histories.push_back(std::move(*picture));
-    if (m.input.fem)
-      for (const ProbeCase& probe : m.scene().probes)
-        if (auto picture = draw_probe(m.runs, *m.input.fem, probe, m.folder))
-          histories.push_back(std::move(*picture));
-    if (m.scene().probes.empty()) return "";
-    return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
-  }
+std::string stress_sections(const Material& m) {
+  const std::string shown = fields_part(m.runs, m.input, m.fields, m.folder);
+  std::string body = html::section(m.input.fields.empty() ? "Stress and displacement" : "Fields", shown);
+  if (m.fields.empty()) return body;
+  if (auto picture = draw_sections(m.runs, m.input.fem, m.input.sections, m.fields.front().field, m.folder))
+    body += html::section("Sections", pictures_of({std::move(*picture)}) +
+                                          "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
+  return body;
+}
 
-  std::string difference_sections(const Material& m) {
-    std::string body;
-    if (const Rows rows = energy_table(m.runs); rows.size() > 1)
-      body += html::section("Energy",
-                            "<p>Where the energy went that gravity released.</p>\n" + html::table(rows));
-    if (const Rows rows = error_table(m.runs); rows.size() > 1)
-      body += html::section(
-          "Errors against the exact solution",
-          "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
-    std::vector<Summary> told;
-    for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
-    body += fem_check_section(m.labels, told);
-    if (m.input.fem) {
-      std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
-      for (const LeftOut& o : m.input.left_out)
-        text += html::escaped(
-            fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
-      body += html::section("Differences from finite elements",
-                            text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
-    }
-    if (!m.input.thresholds.empty()) body += html::section("Thresholds", html::table(m.checked.rows, false));
-    return body;
-  }
+std::string probe_section(const Material& m) {
+  std::vector<ReportPicture> histories;
+  if (auto picture = draw_histories(m.input.runs, m.labels, m.folder))
+    histories.push_back(std::move(*picture));
+  for (const auto& draw : {draw_settlement, draw_stress_paths})
+    if (auto picture = draw(m.input.runs, m.labels, m.folder)) histories.push_back(std::move(*picture));
+  if (m.input.fem)
+    for (const ProbeCase& probe : m.scene().probes)
+      if (auto picture = draw_probe(m.runs, *m.input.fem, probe, m.folder))
+        histories.push_back(std::move(*picture));
+  if (m.scene().probes.empty()) return "";
+  return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
+}
 
-  std::string development_section(const Material& m) {
-    if (m.fields.empty()) return "";
-    const std::string text = development_part(m.runs, m.fields.front(), m.input, m.folder);
-    return text.empty() ? "" : html::section("How it develops", text);
+std::string difference_sections(const Material& m) {
+  std::string body;
+  if (const Rows rows = energy_table(m.runs); rows.size() > 1)
+    body +=
+        html::section("Energy", "<p>Where the energy went that gravity released.</p>\n" + html::table(rows));
+  if (const Rows rows = error_table(m.runs); rows.size() > 1)
+    body += html::section(
+        "Errors against the exact solution",
+        "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
+  std::vector<Summary> told;
+  for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+  body += fem_check_section(m.labels, told);
+  if (m.input.fem) {
+    std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
+    for (const LeftOut& o : m.input.left_out)
+      text += html::escaped(
+          fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
+    body += html::section("Differences from finite elements",
+                          text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
   }
+  if (!m.input.thresholds.empty()) body += html::section("Thresholds", html::table(m.checked.rows, false));
+  return body;
+}
 
-  std::string body_of(const Material& m) {
-    std::string body = html::section("Runs", html::table(run_table(m.runs)));
-    body += stages_section(m.labels, summaries_of(m));
-    body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
-    body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
-    if (const Rows rows = settings_table(m.runs); rows.size() > 1)
-      body += html::section("Settings that differ", html::table(rows, false));
-    for (std::size_t i = 0; i < m.input.studies.size(); ++i)
-      body += study_section(m.input.studies[i], m.folder, fmt::format("study_{}_", i + 1));
-    return body + html::section("How to reproduce", how_to_reproduce(m.input, m.runs));
-  }
+std::string development_section(const Material& m) {
+  if (m.fields.empty()) return "";
+  const std::string text = development_part(m.runs, m.fields.front(), m.input, m.folder);
+  return text.empty() ? "" : html::section("How it develops", text);
+}
 
-  Json json_of(const Material& m) {
-    Json json = {{"runs", Json::object()}, {"thresholds", m.checked.json}, {"warnings", m.warnings}};
-    for (std::size_t i = 0; i < m.runs.size(); ++i) json["runs"][m.runs[i].label] = m.summaries[i];
-    for (const fs::path& study : m.input.studies) json["studies"].push_back(to_json(read_study(study)));
-    return json;
-  }
+std::string body_of(const Material& m) {
+  std::string body = html::section("Runs", html::table(run_table(m.runs)));
+  body += stages_section(m.labels, summaries_of(m));
+  body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
+  body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
+  if (const Rows rows = settings_table(m.runs); rows.size() > 1)
+    body += html::section("Settings that differ", html::table(rows, false));
+  for (std::size_t i = 0; i < m.input.studies.size(); ++i)
+    body += study_section(m.input.studies[i], m.folder, fmt::format("study_{}_", i + 1));
+  return body + html::section("How to reproduce", how_to_reproduce(m.input, m.runs));
+}
+
+Json json_of(const Material& m) {
+  Json json = {{"runs", Json::object()}, {"thresholds", m.checked.json}, {"warnings", m.warnings}};
+  for (std::size_t i = 0; i < m.runs.size(); ++i) json["runs"][m.runs[i].label] = m.summaries[i];
+  for (const fs::path& study : m.input.studies) json["studies"].push_back(to_json(read_study(study)));
+  return json;
+}
 
 }  // namespace
 
