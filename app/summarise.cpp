@@ -55,6 +55,14 @@ std::string tell(const Summary::Consolidation& c) {
       c.soil_sweeps, c.drained, std::abs(c.imbalance));
 }
 
+/// What finite elements say at a probe, where they were computed.
+std::string beside_finite_elements(const Summary& s, const std::string& probe) {
+  if (!s.finite_elements || !s.finite_elements->probes.contains(probe)) return "";
+  const auto& there = s.finite_elements->probes.at(probe);
+  return fmt::format("; finite elements {:.3f} kPa, {:.3f} mm", there.at("EffectiveStress_YY") / 1e3,
+                     there.at("Displacement_Y") * 1e3);
+}
+
 std::int64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -133,8 +141,9 @@ std::string tell(const Summary& s) {
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
   for (const auto& [name, probe] : s.probes)
-    text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
-                        probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
+    text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name, probe.x,
+                        probe.y, probe.values.at("EffectiveStress_YY") / 1e3,
+                        probe.values.at("Displacement_Y") * 1e3, beside_finite_elements(s, name));
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=
