@@ -67,10 +67,18 @@ FemCheck skipped(std::string reason) {
   return check;
 }
 
+/// In the case's coordinates, which positions are not where those are large.
+[[maybe_unused]] Particles in_coordinates_of_the_case(const Model& model) {
+  Particles p = model.particles;
+  for (Vec2& x : p.start) x += model.origin;
+  for (Vec2& x : p.position) x += model.origin;
+  return p;
+}
+
 FemCheck compare([[maybe_unused]] Simulation& s, [[maybe_unused]] double edge) {
 #ifdef POROSPH_HAS_VTK
   const Stopwatch watch;
-  const Particles& particles = s.model().particles;
+  const Particles particles = in_coordinates_of_the_case(s.model());
   FemCheck check = compare_with_fem(s.scene(), particles, solve_fem(s.scene(), mesh_case(s.scene(), edge)));
   check.warnings = fem_warnings(s.scene(), particles, check);
   check.seconds = watch.seconds();

@@ -64,6 +64,14 @@ std::string tell(const std::vector<Summary::Stage>& stages) {
   return text;
 }
 
+/// What finite elements say at a probe, where they were computed.
+std::string beside_finite_elements(const Summary& s, const std::string& probe) {
+  if (!s.finite_elements || !s.finite_elements->probes.contains(probe)) return "";
+  const auto& there = s.finite_elements->probes.at(probe);
+  return fmt::format("; finite elements {:.3f} kPa, {:.3f} mm", there.at("EffectiveStress_YY") / 1e3,
+                     there.at("Displacement_Y") * 1e3);
+}
+
 std::int64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -149,9 +157,9 @@ std::string tell(const Summary& s) {
     if (std::isnan(probe.values.at("Displacement_Y")))
       text += fmt::format("{} ({:g}, {:g}): in soil that is not there\n", name, probe.x, probe.y);
     else
-      text +=
-          fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
-                      probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
+      text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name, probe.x,
+                          probe.y, probe.values.at("EffectiveStress_YY") / 1e3,
+                          probe.values.at("Displacement_Y") * 1e3, beside_finite_elements(s, name));
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=

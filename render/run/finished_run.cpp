@@ -27,6 +27,7 @@ FinishedRun open_run(const fs::path& path) {
   run.name = fs::weakly_canonical(run.folder).filename().string();
   run.series = open_series(pvd);
   if (fs::exists(run.folder / "case.toml")) run.scene = read_case(run.folder / "case.toml");
+  if (run.scene) run.label = run.scene->label;
   if (fs::exists(run.folder / "summary.json")) run.summary = read_summary(run.folder / "summary.json");
   if (fs::exists(run.folder / "history.csv")) run.history = read_history(run.folder / "history.csv").history;
   return run;

@@ -15,7 +15,7 @@ namespace porosph {
 struct FinishedRun {
   std::filesystem::path folder;
   std::string name;   ///< the folder's own name
-  std::string label;  ///< what the command line calls it; may be empty
+  std::string label;  ///< what the command line or else the case calls it; may be empty
   Series series;
   std::optional<Case> scene;       ///< case.toml beside the series, if there is one
   std::optional<Summary> summary;  ///< summary.json, as above

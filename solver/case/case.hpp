@@ -136,8 +136,8 @@ struct FormulationCase {
   double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
   double zero_energy_control = 0;     ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
   double zero_energy_stiffness = -1;  ///< elastic part of that control, in terms of kappa M of the softest
-                                      ///< soil in reach [-]; negative: 0, but 0.1 where soils of different
-                                      ///< stiffness meet, outlines cut cells or gradients had to be closed
+                                      ///< soil in reach [-]; negative: by what is there
+                                      ///< (solver/sph/consistent/zero_energy_spring.cpp)
   double refresh_strain =
       0;  ///< strain or rotation after which kernel gradients are rebuilt; 0: every step [-]
   bool closed_gradients = true;   ///< a uniform stress is in balance also in disorder
@@ -223,6 +223,7 @@ struct StageCase {
 
 struct Case {
   std::string title;
+  std::string label;  ///< names the run in pictures, comparisons and reports; empty: its folder does
   ParticlesCase particles;
   std::vector<SoilCase> soils;
   WaterCase water;

@@ -40,6 +40,10 @@ std::string_view arrangement_name(Arrangement arrangement) {
 
 void declare(Fields& f, Case& c) {
   f.text(Key("title", "", "Shown on pictures and reports."), c.title);
+  f.text(Key("label", "",
+             "Names the run in pictures, comparisons and reports, where `--label` does not; else its folder "
+             "does."),
+         c.label);
   f.choice(
       Key("reference", "",
           "Exact solution that the final state is compared with. `column`: one soil under level ground and "

@@ -140,12 +140,14 @@ void declare(Fields& f, SoilCase& c) {
           "strength; `mohr_coulomb`: theirs itself; `tresca`: undrained clay, whose shear strength does not "
           "depend on pressure."),
       c.law, laws);
-  f.flag(
-      Key("no_tension", "",
-          "A soil without cohesion: no effective stress where its mean would be tensile. Where the mean is "
-          "compressive the soil stays elastic and its shear strength is unlimited: nothing slips.")
-          .only_if(c.law == LawKind::elastic, "law = \"elastic\""),
-      c.no_tension);
+  f.flag(Key("no_tension", "",
+             "A soil without cohesion: no effective stress where its mean would be tensile, and none until "
+             "what has "
+             "come apart has closed again. Where the mean is compressive the soil stays elastic and its "
+             "shear strength "
+             "is unlimited: nothing slips.")
+             .only_if(c.law == LawKind::elastic, "law = \"elastic\""),
+         c.no_tension);
   declare_strength(f, c.law, c.strength);
   const double upright = c.permeability.y();
   f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")

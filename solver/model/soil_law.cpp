@@ -62,7 +62,8 @@ AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
     case LawKind::elastic:
       break;
   }
-  return LinearElastic::from_young(soil.youngs_modulus, soil.poissons_ratio, soil.no_tension);
+  if (soil.no_tension) return NoTension{elastic};
+  return LinearElastic{elastic};
 }
 
 void reduce_strength(Model& model, const Case& scene, double factor) {

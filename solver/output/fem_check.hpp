@@ -31,7 +31,10 @@ struct FemCheck {
   double seconds = 0;                         ///< mesh, solution and comparison
   double limit = 0;                           ///< of FemDifference::relative, beyond which there is a warning
   std::map<std::string, FemSoilCheck> soils;  ///< by name
-  std::vector<std::string> warnings;          ///< soil, field, value, place and cause
+  /// What finite elements say at the probes: EffectiveStress_XX, ..., Displacement_Y, by the probe's name
+  /// [SI].
+  std::map<std::string, std::map<std::string, double>> probes;
+  std::vector<std::string> warnings;  ///< soil, field, value, place and cause
 };
 
 }  // namespace porosph

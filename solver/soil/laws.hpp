@@ -8,6 +8,7 @@
 #include "solver/soil/external_law.hpp"
 #include "solver/soil/linear_elastic.hpp"
 #include "solver/soil/mohr_coulomb.hpp"
+#include "solver/soil/no_tension.hpp"
 #include "solver/soil/tresca.hpp"
 
 namespace porosph {
@@ -19,7 +20,7 @@ struct LawList {
 };
 
 /// A law's place in this list is its number in the kernels; one of a program's own comes last.
-using Laws = LawList<LinearElastic, DruckerPrager, MohrCoulomb, Tresca>;
+using Laws = LawList<LinearElastic, DruckerPrager, MohrCoulomb, Tresca, NoTension>;
 using AnyLaw = Laws::Any;
 
 }  // namespace porosph

@@ -21,7 +21,7 @@ template <SoilLaw Law>
 bool yields(const Law&) {
   return true;
 }
-bool yields(const LinearElastic& law) { return law.no_tension; }
+bool yields(const LinearElastic&) { return false; }
 bool yields(const std::shared_ptr<const ExternalLaw>&) { return true; }
 
 template <SoilLaw Law>

@@ -80,6 +80,38 @@ TEST_CASE("the conventional form is warned of, with its reason, also when quiet 
   CHECK_THAT(text_of(place.folder() / "page/index.html"), Contains("is known to be wrong under water"));
 }
 
+TEST_CASE("probes stand beside what finite elements have there, also far from the origin") {
+  const Workplace place;
+  std::string text = std::string(submerged_ground) + "[[probe]]\nname = \"A\"\nposition = [1.5, 2]\n";
+  for (const auto& [here, far] :
+       {std::pair<std::string, std::string>{"[[0, 0], [3, 0], [3, 5], [0, 5]]",
+                                            "[[4e5, 2e5], [400003, 2e5], [400003, 200005], "
+                                            "[4e5, 200005]]"},
+        {"= [0, 0]", "= [4e5, 2e5]"},
+        {"= [3, 0]", "= [400003, 2e5]"},
+        {"= [0, 5]", "= [4e5, 200005]"},
+        {"= [3, 5]", "= [400003, 200005]"},
+        {"= [1.5, 2]", "= [400001.5, 200002]"},
+        {"level = 8", "level = 200008"}})
+    for (auto at = text.find(here); at != std::string::npos; at = text.find(here, at + far.size()))
+      text.replace(at, here.size(), far);
+  place.write("far.toml", text);
+  place.write("ground.toml",
+              std::string(submerged_ground) + "[[probe]]\nname = \"A\"\nposition = [1.5, 2]\n");
+  REQUIRE(place.porosph("run ground.toml --out run").status == 0);
+  const auto near_by = check_of(place);
+  const Outcome outcome = place.porosph("run far.toml --out run --force");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK_THAT(outcome.out, Contains(" mm; finite elements -30.570 kPa, "));
+  const auto check = check_of(place);
+  CHECK(check["soils"]["sand"]["particles"] == 252);
+  CHECK(check["probes"]["A"]["EffectiveStress_YY"].get<double>() == Approx(-3 * 10190.0));
+  CHECK(check["soils"]["sand"]["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>() ==
+        Approx(near_by["soils"]["sand"]["fields"]["EffectiveStress_YY"]["relative_l2"].get<double>())
+            .epsilon(1e-4));
+}
+
 TEST_CASE("what is not compared says why") {
   const Workplace place;
   place.write("ground.toml", submerged_ground);

@@ -120,6 +120,18 @@ TEST_CASE("compare interpolates between runs of different spacing") {
   CHECK(json["a_against_b"]["Displacement_Y"]["relative_l2"] < 0.02);
 }
 
+TEST_CASE("the key label names a run, where the command line does not") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("run small.toml --quiet --out named --set 'label=as \"built\"'").status == 0);
+  CHECK_THAT(place.porosph("compare named shorter --time common --out by_label").out,
+             Contains("as \"built\" at 0.5 s and shorter at 0.5 s"));
+  CHECK_THAT(place.porosph("compare named shorter --time common --label a --label b --out by_option").out,
+             Contains("a at 0.5 s and b at 0.5 s"));
+  CHECK_THAT(place.porosph("compare named named --out alike").out, Contains("named at 1 s and named at 1 s"));
+  REQUIRE(place.porosph("report named --out report_named").status == 0);
+  CHECK_THAT(text_of(place.folder() / "report_named/index.html"), Contains("as &quot;built&quot;"));
+}
+
 TEST_CASE("compare refuses what cannot be compared") {
   const Workplace& place = computed();
   const Outcome time = place.porosph("compare consistent shorter --out no");

@@ -57,6 +57,7 @@ Json to_json(const FemCheck& check) {
   Json json = {{"unknowns", check.unknowns}, {"seconds", check.seconds}, {"limit", check.limit}};
   json["soils"] = Json::object();
   for (const auto& [name, soil] : check.soils) json["soils"][name] = to_json(soil);
+  for (const auto& [probe, values] : check.probes) json["probes"][probe] = values;
   json["warnings"] = check.warnings;
   return json;
 }
@@ -72,6 +73,7 @@ FemCheck fem_check_from(const Json& json) {
   check.seconds = number(json, "seconds");
   check.limit = number(json, "limit");
   for (const auto& [name, soil] : json.at("soils").items()) check.soils[name] = soil_from(soil);
+  if (json.contains("probes")) check.probes = json.at("probes").get<decltype(check.probes)>();
   return check;
 }
 

@@ -114,6 +114,10 @@ FemCheck compare_with_fem(const Case& scene, const Particles& p, const FemSoluti
     const FemSoilCheck& soil = check.soils[scene.soils[s].name] = sums[s].finished();
     strain = std::max(strain, soil.strain), particles += soil.particles;
   }
+  for (const ProbeCase& probe : scene.probes) {
+    const Values there = values_of(fem.at(probe.position));
+    for (int q = 0; q < quantities; ++q) check.probes[probe.name][names[q]] = there[q];
+  }
   if (particles == 0) throw std::runtime_error("every particle is near a point where stress is singular");
   check.limit = tolerable + strain;
   return check;

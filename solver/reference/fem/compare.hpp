@@ -11,7 +11,7 @@ namespace porosph {
 /// near rough_points(): five spacings around singular ones, two and a half around the others, where lines are
 /// long enough for that. FemCheck::limit is 5 % and the largest strain of a soil, as finite elements of small
 /// strain are off by about that themselves; `warnings` is left empty. Throws std::runtime_error if no
-/// particle is left.
+/// particle is left. What finite elements say at the case's probes is noted beside it.
 FemCheck compare_with_fem(const Case&, const Particles&, const FemSolution&);
 
 /// One text for each soil and field beyond the limit: how far, where, and why as far as is known.
