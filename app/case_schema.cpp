@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/case/fields.hpp"
+#include "solver/case/units.hpp"
 
 namespace porosph::app {
 namespace {
@@ -15,6 +16,15 @@ Json bounded(Json schema, const Range& range) {
   if (std::isfinite(range.min)) schema[range.min_included ? "minimum" : "exclusiveMinimum"] = range.min;
   if (std::isfinite(range.max)) schema[range.max_included ? "maximum" : "exclusiveMaximum"] = range.max;
   return schema;
+}
+
+/// A number, or text of a number and one of the usual units of the key.
+Json measure(std::string_view unit, const Range& range = {}) {
+  std::string units = usual_units(unit);
+  for (std::size_t at = 0; (at = units.find(", ", at)) != std::string::npos;) units.replace(at, 2, "|");
+  return bounded(
+      {{"type", {"number", "string"}}, {"pattern", "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(" + units + ")$"}},
+      range);
 }
 
 Json list_of(Json items, int least = 0, int most = -1) {
@@ -37,13 +47,13 @@ class SchemaWriter : public Fields {
   Json table = empty_table();
 
   void number(const Key& key, double& value, const Range& range) override {
-    add(key, bounded({{"type", "number"}}, range), std::isfinite(value) ? Json(value) : Json());
+    add(key, measure(key.unit, range), std::isfinite(value) ? Json(value) : Json());
   }
   void number_or(const Key& key, double&, const Range& range, std::string_view word, bool&) override {
-    add(key, {{"anyOf", {bounded({{"type", "number"}}, range), {{"const", std::string(word)}}}}});
+    add(key, {{"anyOf", {measure(key.unit, range), {{"const", std::string(word)}}}}});
   }
   void numbers(const Key& key, std::vector<double>&, const Range& range) override {
-    add(key, list_of(bounded({{"type", "number"}}, range)));
+    add(key, list_of(measure(key.unit, range)));
   }
   void integer(const Key& key, int& value, const Range& range) override {
     add(key, bounded({{"type", "integer"}}, range), value);
@@ -59,10 +69,11 @@ class SchemaWriter : public Fields {
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string> allowed) override {
     add(key, list_of(one_word_of(allowed)));
   }
-  void point(const Key& key, Point&) override { add(key, pair()); }
-  void pairs(const Key& key, std::vector<Point>&) override { add(key, list_of(pair())); }
-  void polygon(const Key& key, Polygon&) override { add(key, list_of(pair(), 3)); }
-  void polygons(const Key& key, std::vector<Polygon>&) override { add(key, list_of(list_of(pair(), 3))); }
+  void texts(const Key& key, std::vector<std::string>&) override { add(key, list_of({{"type", "string"}})); }
+  void point(const Key& key, Point&) override { add(key, pair(key)); }
+  void pairs(const Key& key, std::vector<Point>&) override { add(key, list_of(pair(key))); }
+  void polygon(const Key& key, Polygon&) override { add(key, list_of(pair(key), 3)); }
+  void polygons(const Key& key, std::vector<Polygon>&) override { add(key, list_of(list_of(pair(key), 3))); }
 
  protected:
   void one_of(const Key& key, int& index, std::span<const std::string_view> names) override {
@@ -81,7 +92,11 @@ class SchemaWriter : public Fields {
   static Json empty_table() {
     return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
   }
-  static Json pair() { return list_of({{"type", "number"}}, 2, 2); }
+  static Json pair(const Key& key) {
+    const std::string_view first = unit_of_component(key.unit, 0), second = unit_of_component(key.unit, 1);
+    if (first == second) return list_of(measure(first), 2, 2);
+    return list_of({measure(first), measure(second)}, 2, 2);  // one schema for each of them
+  }
 
   Json within(const std::function<void()>& contents) {
     Json outer = std::exchange(table, empty_table());

@@ -16,6 +16,7 @@
 #include "solver/case/demand.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
+#include "solver/case/stages.hpp"
 #include "solver/model/soil_volume.hpp"
 #include "solver/run/run.hpp"
 #include "solver/run/simulation.hpp"
@@ -164,15 +165,47 @@ void print_run_time(const Case& scene, double particles, double per_step, double
                                 seconds, measured_on));
 }
 
-void tell_tried(const Case& scene) {
+/// What each stage changes, how long it lasts, and how many particles it has. Nothing is computed.
+void print_stages(const Case& scene, double seconds_per_particle_step) {
+  StagePlan plan(scene);
+  double seconds = 0;
+  for (double start = 0;; start = plan.scene().time.end, plan.go_on(start)) {
+    const Simulation s(plan.scene(), {.time = start});
+    const auto particles = static_cast<double>(s.model().particles.size());
+    const auto changes = plan.changes();
+    print(plan.stage() == 0 ? "stages" : "",
+          fmt::format("'{}': {}", plan.name(),
+                      plan.stage() == 0 ? "the case as it begins"
+                      : changes.empty() ? "nothing changes"
+                                        : fmt::format("{}", fmt::join(changes, "; "))));
+    print("", fmt::format("    {:g} s{}, {} particles, at most {} steps", s.scene().time.end - start,
+                          s.scene().stop.unbalanced_force_ratio > 0 ? " or until at rest" : "", particles,
+                          s.last_step()));
+    seconds += seconds_per_particle_step * particles * static_cast<double>(s.last_step());
+    if (plan.is_last()) break;
+  }
+  print("run time", fmt::format("at most {:.2g} s (measured on its first steps)", seconds));
+}
+
+void tell_tried(const Case& whole) {
+  const Case scene = StagePlan(whole).scene();
   Simulation simulation(scene);
   warn(warnings_of(simulation.model(), scene));
   warn_of_smaller_steps(simulation);
   print_model(simulation);
   if (simulation.consolidation() != nullptr) return;
   const double per_step = seconds_per_step(simulation);
+  if (!whole.stages.empty())
+    return print_stages(whole, per_step / static_cast<double>(simulation.model().particles.size()));
   print_run_time(scene, static_cast<double>(simulation.model().particles.size()), per_step,
                  static_cast<double>(simulation.last_step()), "its first steps");
+}
+
+/// As a case of its own, arranged for itself.
+Case first_stage(const Case& scene) {
+  Case first = StagePlan(scene).scene();
+  first.plan.reset();
+  return first;
 }
 
 /// The same body with fewer particles tells how fast they go.
@@ -218,7 +251,7 @@ int check_command(const Arguments& arguments) {
   print("memory", fmt::format("about {:.0f} MB", memory_needed(scene) / 1e6));
   print("finite elements", fem_outlook(scene));
   if (demand.particles > most_tried)
-    tell_large(scene, demand);
+    tell_large(first_stage(scene), demand);
   else
     tell_tried(scene);
   return Exit::done;

@@ -25,6 +25,7 @@ std::optional<Case> case_in(const std::filesystem::path& folder) {
 std::optional<std::string> adopt_earlier_run(const std::filesystem::path& folder, Case& scene) {
   const std::optional<Case> earlier = case_in(folder);
   if (!earlier) return std::nullopt;
+  if (!scene.stages.empty() && scene.time.end != earlier->time.end) return std::nullopt;
   const bool names_step = scene.time.step > 0;
   Case same = scene;
   same.time.end = earlier->time.end;

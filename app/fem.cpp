@@ -9,6 +9,7 @@
 #include "app/results.hpp"
 #include "app/shipped_cases.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/stages.hpp"
 #include "solver/reference/fem/demand.hpp"
 #include "solver/reference/fem/solve.hpp"
 #include "solver/run/probe.hpp"
@@ -94,6 +95,9 @@ int fem_command(const Arguments& arguments) {
   if (values.count("edge") > 0 && !(edge > 0 && std::isfinite(edge)))
     throw UsageError(fmt::format("--edge = {}: must be > 0 m", edge));
   Case scene = read_case(find_case(case_file), overrides);
+  require_plain(scene, "porosph fem");
+  if (scene.loading.horizontal != 0)
+    throw UsageError("fem: gravity is upright in the finite elements, but loading.horizontal is given");
   scene.water = at_rest_from(scene.water, scene.time.end);
   const fs::path folder =
       out.empty() ? fs::path("results") / (fs::path(case_file).stem().string() + "_fem") : fs::path(out);

@@ -17,10 +17,12 @@ using namespace porosph::app;
 
 const std::vector<Command> commands = {
     {"init", "write a case to start from", init_command},
+    {"import", "make a case of a drawing", import_command},
     {"list", "name the cases that come with the program", list_command},
     {"run", "compute a case", run_command},
     {"check", "validate a case and say what it will cost", check_command},
     {"safety", "find the factor of safety of a case", safety_command},
+    {"element", "test the soils of a case as a laboratory does", element_command},
     {"stability", "map where settings keep a case accurate and stable", stability_command},
 #ifdef POROSPH_HAS_VTK
     {"fem", "compute the finite-element reference of a case", fem_command},
@@ -28,6 +30,8 @@ const std::vector<Command> commands = {
 #ifdef POROSPH_HAS_RENDER
     {"render", "draw a picture of a series", render_command},
     {"section", "draw values along a line through the soil", section_command},
+    {"grid", "write values of a run on a regular grid", grid_command},
+    {"history", "draw what probes recorded: stress, settlement, stress paths", history_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
     {"bench", "measure speed, and run time against error", bench_command},

@@ -59,8 +59,9 @@ void remove_results(const fs::path& folder) {
 void remove_what_is_of_another(const fs::path& folder, const std::string& case_text) {
   if (!is_of_another(folder, case_text)) return;
   remove_results(folder);
-  for (const char* name : {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png",
-                           "mechanism.png", "slip_surfaces.csv", "slip_surfaces.vtp"})
+  for (const char* name :
+       {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png", "mechanism.png",
+        "slip_surfaces.csv", "slip_surfaces.vtp", "index.html", "study.json"})
     remove_file(folder / name);
 }
 
@@ -98,8 +99,6 @@ bool is_interrupted_run(const fs::path& folder) {
   }
 }
 
-double time_of(std::int64_t step, const Simulation& s) { return static_cast<double>(step) * s.time_step(); }
-
 }  // namespace
 
 void check_owner(const fs::path& folder, const std::string& case_text, bool resume) {
@@ -134,28 +133,29 @@ std::optional<Summary> finished_summary(const fs::path& folder) {
   return summary;
 }
 
-Results::Results(const fs::path& folder, const Simulation& simulation, [[maybe_unused]] bool frames)
+Results::Results(const fs::path& folder, const Case& scene, const Simulation& simulation,
+                 [[maybe_unused]] bool frames)
     : folder_(folder),
-      case_text_(write_case(simulation.scene())),
+      case_text_(write_case(scene)),
       history_(taken(folder, case_text_, remark_on(simulation)), history_columns(simulation)) {
 #ifdef POROSPH_HAS_VTK
-  if (frames) series_.emplace(folder_, series_options(simulation.scene()));
+  if (frames) series_.emplace(folder_, series_options(scene));
 #endif
 }
 
-Results::Results(const fs::path& folder, const Simulation& simulation, bool frames,
+Results::Results(const fs::path& folder, const Case& scene, const Simulation& simulation, bool frames,
                  const RunProgress& progress, const WrittenFiles& written)
     : folder_(folder),
-      case_text_(write_case(simulation.scene())),
+      case_text_(write_case(scene)),
       history_(HistoryWriter::resume(folder / history_name, history_columns(simulation),
-                                     time_of(progress.recorded, simulation), written.history)) {
+                                     simulation.time_of(progress.recorded), written.history)) {
   if (const bool had_frames = fs::exists(folder_ / series_name); had_frames != frames)
     throw UsageError(fmt::format("the run in {} was started {} frames, and can only be resumed that way",
                                  folder_.string(), had_frames ? "with" : "without"));
 #ifdef POROSPH_HAS_VTK
   if (frames)
-    series_.emplace(SeriesWriter::resume(folder_, time_of(progress.framed, simulation), written.frames,
-                                         series_options(simulation.scene())));
+    series_.emplace(SeriesWriter::resume(folder_, simulation.time_of(progress.framed), written.frames,
+                                         series_options(scene)));
 #endif
 }
 
@@ -182,13 +182,14 @@ WrittenFiles Results::written() const {
   return written;
 }
 
-void Results::finish(const Summary& summary) {
+void Results::finish(const Summary& summary, const std::string& state) {
   history_.sync();
   write_summary(folder_ / summary_name, summary);
   if (summary.status == RunStatus::completed)
     keep_newest_checkpoint(folder_);  // a later end time continues from there
   else if (summary.status != RunStatus::interrupted)
     remove_checkpoints(folder_);
+  if (summary.status == RunStatus::equilibrium) write_checkpoint(folder_, case_text_, state);
 }
 
 }  // namespace porosph::app

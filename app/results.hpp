@@ -35,19 +35,21 @@ std::optional<Summary> finished_summary(const std::filesystem::path& folder);
 class Results {
  public:
   /// Begins at the start: what an earlier run wrote there is removed.
-  Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames);
+  /// `scene`: the case with all of its stages.
+  Results(const std::filesystem::path& folder, const Case& scene, const Simulation& simulation, bool frames);
 
   /// Continues the files of the run that left off at `progress`: what they hold beyond is removed. Throws
   /// ReadError where they are not those that the run wrote; UsageError where it wrote frames and this one
   /// does not, or the other way round.
-  Results(const std::filesystem::path& folder, const Simulation& simulation, bool frames,
+  Results(const std::filesystem::path& folder, const Case& scene, const Simulation& simulation, bool frames,
           const RunProgress& progress, const WrittenFiles& written);
 
   void frame(Simulation& simulation);
   void row(const std::vector<double>& values) { history_.append(values); }
   void checkpoint(const std::string& state);
   WrittenFiles written() const;
-  void finish(const Summary& summary);
+  /// `state`: a checkpoint at the end, kept where the run came to rest, for other runs to start from.
+  void finish(const Summary& summary, const std::string& state);
 
  private:
   std::filesystem::path folder_;

@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/earlier_run.hpp"
 #include "app/interruption.hpp"
+#include "app/left_off.hpp"
 #include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/results.hpp"
@@ -56,13 +57,14 @@ std::optional<Options> read_options(const Arguments& arguments) {
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
-  if (!parse(arguments, options, positional, "run CASE.toml [options]",
-             "  porosph run cases/foundation.toml\n"
-             "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
-             "  porosph run cases/foundation.toml --set particles.spacing=0.1 --threads 2 --no-frames\n"
-             "  porosph run cases/foundation.toml --resume\n"
-             "  porosph run cases/foundation.toml --resume --set time.end=8\n",
-             values))
+  if (!parse(
+          arguments, options, positional, "run CASE.toml [options]",
+          "  porosph run cases/foundation.toml\n"
+          "  porosph run cases/foundation.toml --set formulation.motion=proposed --out results/proposed\n"
+          "  porosph run cases/foundation.toml --set particles.spacing=0.1 --no-frames --out results/fine\n"
+          "  porosph run cases/foundation.toml --resume\n"
+          "  porosph run cases/foundation.toml --resume --set time.end=8\n",
+          values))
     return std::nullopt;
   o.case_file = find_case(case_file);
   o.folder =
@@ -88,20 +90,6 @@ int exit_of(RunStatus status) {
   if (status == RunStatus::unstable) return Exit::unstable;
   return status == RunStatus::interrupted ? Exit::interrupted : Exit::done;
 }
-
-/// The state from which a run continues.
-struct LeftOff {
-  RunProgress progress;
-  WrittenFiles written;
-  double wall_seconds = 0;
-
-  void visit(StateArchive& state, Simulation& simulation) {
-    simulation.visit(state);
-    progress.visit(state);
-    written.visit(state);
-    state.value("wall_seconds", wall_seconds);
-  }
-};
 
 std::optional<FoundState> find_sound_state(const std::filesystem::path& folder,
                                            const std::string& case_text) {
@@ -141,8 +129,7 @@ std::optional<Summary> nothing_to_resume(const Options& o, const Task& task) {
 }
 
 /// Puts the simulation where the folder's checkpoint left off; nothing if there is none.
-std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& task,
-                               Simulation& simulation) {
+std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& task, StagedRun& run) {
   const auto found = find_sound_state(folder, task.text_in_folder());
   if (!found) return std::nullopt;
   if (!found->note.empty())
@@ -150,7 +137,7 @@ std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& 
   LeftOff left_off;
   try {
     StateReader reader(found->state);
-    left_off.visit(reader, simulation);
+    left_off.visit(reader, run);
     reader.finish();
   } catch (const StateError& error) {
     throw ReadError(folder / "checkpoint.bin", error.what());
@@ -159,13 +146,36 @@ std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& 
 }
 
 /// The folder's files, continued or new.
-Results open_results(const Options& o, const Simulation& simulation, const std::optional<LeftOff>& left_off) {
-  if (!left_off) return {o.folder, simulation, o.frames};
+Results open_results(const Options& o, const Case& scene, const Simulation& simulation,
+                     const std::optional<LeftOff>& left_off) {
+  if (!left_off) return {o.folder, scene, simulation, o.frames};
   try {
-    return {o.folder, simulation, o.frames, left_off->progress, left_off->written};
+    return {o.folder, scene, simulation, o.frames, left_off->progress, left_off->written};
   } catch (const ReadError& error) {
     throw ReadError(error, ": the run cannot be resumed; --force starts it again");
   }
+}
+
+/// The state that the case names to start from, unless there is a checkpoint to continue from.
+std::optional<HandedOver> state_to_start_from(const Options& o, const Task& task) {
+  if (task.scene.start_from.empty() || (o.resume && has_checkpoint(o.folder))) return std::nullopt;
+  return last_state(task.scene.start_from);
+}
+
+void tell_beginning(const Options& o, const StagedRun& run, bool continues) {
+  const Simulation& s = run.simulation();
+  say(stdout, fmt::format("{}: {} particles, {} steps to {:g} s, results in {}\n", s.scene().title,
+                          s.model().particles.size(), s.last_step(), s.scene().time.end, o.folder.string()));
+  if (o.resume)
+    say(stdout, continues ? fmt::format("continues from {:.6g} s\n", s.time())
+                          : "there is no checkpoint to continue from: starts at the beginning\n");
+}
+
+void tell_stage(const StagedRun& run) {
+  const Simulation& s = run.simulation();
+  say(stdout, fmt::format("stage '{}' from {:.6g} s: {}; {} particles, at most {} steps\n", run.plan().name(),
+                          s.start_time(), fmt::join(run.plan().changes(), "; "), s.model().particles.size(),
+                          s.last_step()));
 }
 
 /// Says when a checkpoint is due.
@@ -203,41 +213,37 @@ int run_command(const Arguments& arguments) {
   }
   std::vector<std::string> warnings = warnings_of(task.scene);
   warn(warnings);
-  Simulation simulation(task.scene);
-  const std::vector<std::string> of_particles = warnings_of(simulation.model(), task.scene);
+  const auto start_state = state_to_start_from(*options, task);
+  StagedRun stages(task.scene, start_state ? &*start_state : nullptr);
+  const std::vector<std::string> of_particles =
+      warnings_of(stages.simulation().model(), stages.simulation().scene());
   warn(of_particles);
   warnings.insert(warnings.end(), of_particles.begin(), of_particles.end());
-  warn_of_smaller_steps(simulation);
-  use_threads(options->threads, simulation.model().particles.size());
-  const auto left_off =
-      options->resume ? restore(options->folder, task, simulation) : std::optional<LeftOff>();
-  Results results = open_results(*options, simulation, left_off);
+  warn_of_smaller_steps(stages.simulation());
+  use_threads(options->threads, stages.simulation().model().particles.size());
+  const auto left_off = options->resume ? restore(options->folder, task, stages) : std::optional<LeftOff>();
+  Results results = open_results(*options, task.scene, stages.simulation(), left_off);
   if (left_off && task.earlier) {
     StateWriter state;
-    LeftOff(*left_off).visit(state, simulation);
+    LeftOff(*left_off).visit(state, stages);
     extend_run(options->folder, task.case_text, state.content());
   }
-  if (!options->quiet) {
-    say(stdout, fmt::format("{}: {} particles, {} steps to {:g} s, results in {}\n", simulation.scene().title,
-                            simulation.model().particles.size(), simulation.last_step(),
-                            simulation.scene().time.end, options->folder.string()));
-    if (options->resume)
-      say(stdout, left_off ? fmt::format("continues from {:.6g} s\n", simulation.time())
-                           : "there is no checkpoint to continue from: starts at the beginning\n");
-  }
+  if (!options->quiet) tell_beginning(*options, stages, left_off.has_value());
 
   const auto wall_seconds = [&] {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
     return now.count() + (left_off ? left_off->wall_seconds : 0);
   };
-  Progress progress(options->quiet, simulation);
   Interval since_checkpoint(options->checkpoint_every);
+  const auto state_with = [&](const RunProgress& p) {
+    StateWriter state;
+    LeftOff{p, results.written(), wall_seconds()}.visit(state, stages);
+    return state.content();
+  };
   const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {
     if (!ending && !since_checkpoint.over()) return;
-    StateWriter state;
-    LeftOff{p, results.written(), wall_seconds()}.visit(state, s);
     try {
-      results.checkpoint(state.content());
+      results.checkpoint(state_with(p));
     } catch (const WriteError& error) {
       if (s.step() < s.last_step()) throw;  // a run that is complete has its results without it
       std::cerr << fmt::format("porosph: warning: {}; the run cannot be resumed to a later end\n",
@@ -245,18 +251,29 @@ int run_command(const Arguments& arguments) {
     }
     since_checkpoint.restart();
   };
-  const RunOutcome outcome = run(simulation,
-                                 {.frame = [&](Simulation& s) { results.frame(s); },
-                                  .history = [&](const auto& row) { results.row(row); },
-                                  .progress = [&](const Simulation& s) { progress.show(s); },
-                                  .interrupted = is_interrupted,
-                                  .checkpoint = keep},
-                                 left_off ? left_off->progress : RunProgress{});
-  progress.finish();
-  Summary summary = summarise(simulation, outcome, wall_seconds());
-  summary.finite_elements = check_by_fem(simulation, summary);
+  RunOutcome outcome;
+  RunProgress so_far = left_off ? left_off->progress : RunProgress{};
+  while (true) {
+    Progress progress(options->quiet, stages.simulation());
+    outcome = run(stages.simulation(),
+                  {.frame = [&](Simulation& s) { results.frame(s); },
+                   .history = [&](const auto& row) { results.row(row); },
+                   .progress = [&](const Simulation& s) { progress.show(s); },
+                   .interrupted = is_interrupted,
+                   .checkpoint = keep},
+                  so_far);
+    progress.finish();
+    if (outcome.status == RunStatus::interrupted) break;
+    stages.end(outcome);
+    if (!stages.goes_on()) break;
+    stages.go_on();
+    so_far = {.stepping_seconds = outcome.stepping_seconds};
+    if (!options->quiet) tell_stage(stages);
+  }
+  Summary summary = summarise(stages, outcome, wall_seconds());
+  summary.finite_elements = check_by_fem(stages.simulation(), summary);
   summary.warnings = warnings;
-  results.finish(summary);
+  results.finish(summary, outcome.status == RunStatus::equilibrium ? state_with(so_far) : "");
   if (!options->quiet) say(stdout, tell(summary));
   warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)

@@ -13,6 +13,7 @@
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/stages.hpp"
 #include "solver/printable.hpp"
 #include "solver/reference/limit_equilibrium/section_of_case.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -22,6 +23,7 @@
 #include "vtk_io/line_vtp.hpp"
 #endif
 #ifdef POROSPH_HAS_RENDER
+#include "render/report/safety_study.hpp"
 #include "render/run/safety_pictures.hpp"
 #endif
 
@@ -64,7 +66,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "safety CASE.toml [options]",
              "  porosph safety safety/griffiths_lane_1\n"
              "  porosph safety safety/griffiths_lane_1 --method limit-equilibrium\n"
-             "  porosph safety safety/griffiths_lane_1 --set soil.slope.cohesion=5e3 --bracket 0.02\n",
+             "  porosph safety safety/griffiths_lane_1 --set \"soil.slope.cohesion=5 kPa\" --out "
+             "results/weaker\n",
              values))
     return std::nullopt;
   if (o.method != "both" && o.method != "strength-reduction" && o.method != "limit-equilibrium")
@@ -78,6 +81,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
 }
 
 void check_soils(const Case& scene) {
+  require_plain(scene, "porosph safety");
   if (!scene.loading.gravity_applied)
     throw UsageError(
         "safety: loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety");
@@ -91,6 +95,10 @@ void check_soils(const Case& scene) {
 
 /// Limit equilibrium takes pore pressure from a level; that of flow it does not know.
 void check_water(const Case& scene, const Options& o) {
+  if (scene.loading.horizontal != 0 && o.by_limit_equilibrium())
+    throw UsageError(
+        "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
+        "--method strength-reduction does");
   if (!scene.water.flows()) return;
   if (!o.by_particles())
     throw UsageError(
@@ -119,13 +127,6 @@ void find_by_particles(const Case& scene, const Options& o, SafetyAnswer& answer
   answer.particle_seconds = watch.seconds();
 }
 
-/// The bracket as people say it.
-std::string bracket_text(const StrengthReduction& found) {
-  if (found.fails_at == never) return fmt::format("above {:.4g}", found.stable_at);
-  if (found.stable_at == 0) return fmt::format("below {:.4g}", found.fails_at);
-  return fmt::format("{:.4g} to {:.4g}", found.stable_at, found.fails_at);
-}
-
 void tell(const SafetyAnswer& answer) {
   say(stdout, "\nfactor of safety\n");
   const auto row = [](const std::string& method, const std::string& factor, double seconds) {
@@ -140,7 +141,8 @@ void tell(const SafetyAnswer& answer) {
     say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
 }
 
-void write(const Case& scene, const SafetyAnswer& answer, const fs::path& folder) {
+void write(const Case& scene, const SafetyAnswer& answer, [[maybe_unused]] const std::string& command,
+           const fs::path& folder) {
   if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
   if (answer.limit_equilibrium) {
     write_slip_surfaces(folder / "slip_surfaces.csv", answer);
@@ -155,6 +157,7 @@ void write(const Case& scene, const SafetyAnswer& answer, const fs::path& folder
 #ifdef POROSPH_HAS_RENDER
   if (answer.particles) save_safety_curve(answer, folder / "safety.png");
   save_mechanism(scene, answer, folder / "mechanism.png");
+  write_study(safety_study(answer, command), folder);
 #endif
   write_safety_summary(folder / "safety.json", answer);
 }
@@ -187,7 +190,7 @@ int safety_command(const Arguments& arguments) {
   const std::string apart = disagreement(answer);
   if (!apart.empty()) answer.warnings.push_back(apart);
   take_folder(folder, case_text);
-  write(scene, answer, folder);
+  write(scene, answer, command_line("safety", arguments), folder);
   if (!o->quiet) {
     tell(answer);
     say(stdout, folder.string() + "\n");

@@ -123,6 +123,8 @@ void print(const RunSection& section) {
              section.pieces.size(), section.pieces.size() == 1 ? "" : "es");
   print_force(section, "EffectiveStress", "effective stress:");
   print_force(section, "TotalStress", "total stress:");
+  if (has_field(section.pieces.front().values, "DarcyVelocity"))
+    fmt::print("  {:16} {:.5g} m2/s to the left of the line\n", "discharge:", flow_through(section.pieces));
 }
 
 }  // namespace

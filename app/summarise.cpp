@@ -55,6 +55,15 @@ std::string tell(const Summary::Consolidation& c) {
       c.soil_sweeps, c.drained, std::abs(c.imbalance));
 }
 
+std::string tell(const std::vector<Summary::Stage>& stages) {
+  std::string text;
+  for (const Summary::Stage& stage : stages)
+    text += fmt::format("stage '{}' from {:.6g} to {:.6g} s, ended by {}: {} particles, {:.4g} mm at most\n",
+                        stage.name, stage.start, stage.time, stage.ended, stage.particles,
+                        1e3 * stage.largest_displacement);
+  return text;
+}
+
 std::int64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -63,7 +72,8 @@ std::int64_t peak_memory() {
 
 }  // namespace
 
-Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds) {
+Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds) {
+  Simulation& s = run.simulation();
   Summary summary;
   summary.status = outcome.status;
   summary.message = outcome.message;
@@ -71,13 +81,14 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.formulation = motion_name(s.scene().formulation.motion);
   summary.kernel_correction = s.scene().formulation.kernel_correction;
   summary.particles = static_cast<std::int64_t>(s.model().particles.size());
-  summary.steps = s.step();
+  summary.steps = run.steps();
+  summary.stages = run.ended();
   summary.time = s.time();
   summary.time_step = s.time_step();
-  std::int64_t sweeps = s.step();
+  std::int64_t particle_steps = run.particle_steps();
   if (const Consolidation* c = s.consolidation()) {
     const auto& counts = c->counts();
-    summary.steps = counts.flow_steps, sweeps = counts.soil_sweeps;
+    summary.steps = counts.flow_steps, particle_steps = summary.particles * counts.soil_sweeps;
     summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, counts.flow_steps));
     summary.consolidation = {counts.flow_steps,  counts.pressure_solves, counts.krylov_iterations,
                              counts.soil_sweeps, c->drained(),           c->imbalance()};
@@ -86,12 +97,12 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
   summary.stepping_seconds = outcome.stepping_seconds;
-  summary.particle_steps_per_second =
-      static_cast<double>(summary.particles * sweeps) / outcome.stepping_seconds;
+  summary.particle_steps_per_second = static_cast<double>(particle_steps) / outcome.stepping_seconds;
   summary.peak_memory_bytes = peak_memory();
   summary.unbalanced_force_ratio =
       s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
   summary.energy_growth = outcome.energy_growth;
+  summary.energy = outcome.energy;
   if (s.showable()) {
     const Zigzag zigzag = measure_zigzag(s.model());
     summary.zigzag = {.rms = zigzag.rms,
@@ -102,12 +113,7 @@ Summary summarise(Simulation& s, const RunOutcome& outcome, double wall_seconds)
   }
   if (const FlowRecord* flow = s.model().pore_water->record())
     summary.seepage = {flow->through_faces, flow->imbalance, flow->newton_steps, flow->krylov_iterations};
-  for (const Probe& probe : s.probes()) {
-    Summary::Probe& p = summary.probes[probe.name()];
-    p.x = probe.start().x(), p.y = probe.start().y();
-    const std::vector<double> values = probe.read(s.model().particles).values();
-    for (std::size_t i = 0; i < values.size(); ++i) p.values[probe_quantities()[i]] = values[i];
-  }
+  summary.probes = probe_readings(s);
   if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
   return summary;
@@ -130,11 +136,22 @@ std::string tell(const Summary& s) {
     text += fmt::format(
         "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
         s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
+  if (s.energy && s.energy->released > 0)
+    text += fmt::format(
+        "{:.4g} J/m released: {:.1f} % dissipated by the soil, {:.1f} % by the zero-energy "
+        "control, {:.1f} % unaccounted for\n",
+        s.energy->released, 100 * s.energy->plastic / s.energy->released,
+        100 * s.energy->control / s.energy->released, 100 * s.energy->unaccounted / s.energy->released);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
+  text += tell(s.stages);
   for (const auto& [name, probe] : s.probes)
-    text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
-                        probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
+    if (std::isnan(probe.values.at("Displacement_Y")))
+      text += fmt::format("{} ({:g}, {:g}): in soil that is not there\n", name, probe.x, probe.y);
+    else
+      text +=
+          fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", name, probe.x, probe.y,
+                      probe.values.at("EffectiveStress_YY") / 1e3, probe.values.at("Displacement_Y") * 1e3);
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=

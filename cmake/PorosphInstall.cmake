@@ -1,5 +1,5 @@
-# cmake --install and cpack: the program with its cases and pages (component runtime), and the libraries for
-# programs of one's own (component development).
+# cmake --install and cpack: the program with its cases and pages (component runtime), what reads
+# drawings (component drawings), and the libraries for programs of one's own (component development).
 set(CMAKE_INSTALL_DOCDIR share/doc/porosph)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -18,8 +18,13 @@ add_custom_command(OUTPUT ${page} DEPENDS porosph VERBATIM
 add_custom_target(porosph_pages ALL DEPENDS ${completion} ${page})
 
 install(TARGETS porosph RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+if(TARGET porosph_read_drawing)
+  install(TARGETS porosph_read_drawing RUNTIME DESTINATION libexec/porosph COMPONENT drawings)
+endif()
 install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases DESTINATION ${CMAKE_INSTALL_DATADIR}/porosph COMPONENT runtime)
+install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/porosph COMPONENT runtime
+        FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
@@ -48,12 +53,20 @@ set(CPACK_PACKAGE_CONTACT "The Porosph authors <porosph@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime development)
+if(TARGET porosph_read_drawing)
+  list(APPEND CPACK_COMPONENTS_ALL drawings)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME porosph)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS porosph-drawings)
+set(CPACK_DEBIAN_DRAWINGS_PACKAGE_NAME porosph-drawings)
+set(CPACK_DEBIAN_DRAWINGS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_DRAWINGS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DRAWINGS_PACKAGE_DEPENDS porosph)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME porosph-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
@@ -61,4 +74,5 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libvtk9-dev)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Computes submerged foundations, embankments and slopes, writes particle series for ParaView and draws pictures.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries of Porosph, for programs that add a material of their own.")
+set(CPACK_COMPONENT_DRAWINGS_DESCRIPTION "Reads drawings (DXF, GeoJSON, CSV, WKT) for porosph import, by GDAL.")
 include(CPack)

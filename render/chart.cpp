@@ -49,6 +49,25 @@ std::vector<LegendEntry> legend_of(const Chart& chart) {
   return entries;
 }
 
+/// Cuts the longest labels short until the legend takes no more than this width [pixels].
+void shorten(std::vector<LegendEntry>& entries, double width) {
+  const auto is_part_of_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  constexpr std::size_t shortest = 8;  // bytes
+  const std::string dots = "…";
+  while (legend_extent(entries).x > width) {
+    const auto longest = std::ranges::max_element(
+        entries, {}, [](const LegendEntry& e) { return text_extent(e.label, 13).x; });
+    std::string& label = longest->label;
+    if (label.ends_with(dots)) label.resize(label.size() - dots.size());
+    if (label.size() <= shortest) return;
+    do {
+      label.pop_back();
+    } while (is_part_of_letter(label.back()));
+    if (static_cast<unsigned char>(label.back()) >= 0xC0) label.pop_back();
+    label += dots;
+  }
+}
+
 /// The series as lines on the picture, broken where a point has no place on it.
 std::vector<std::vector<Pixel>> lines_of(const ChartSeries& series, const Plot& plot) {
   std::vector<std::vector<Pixel>> lines(1);
@@ -88,6 +107,15 @@ FrameMargins margins_of(const Chart& chart, const Box& cell) {
   return margins;
 }
 
+/// Makes the shorter axis longer: y at its upper end, x at both.
+void make_equal(Plot& plot) {
+  const double x = (plot.x.high - plot.x.low) / plot.box.width,
+               y = (plot.y.high - plot.y.low) / plot.box.height;
+  if (x > y) plot.y.high = plot.y.low + x * plot.box.height;
+  const double more = y > x ? (y - x) * plot.box.width / 2 : 0;
+  plot.x.low -= more, plot.x.high += more;
+}
+
 Plot plot_in(const Chart& chart, const Box& cell, const FrameMargins& margins) {
   Plot plot{{}, x_axis_of(chart), y_axis_of(chart)};
   plot.box = {std::round(cell.x + margins.left), std::round(cell.y + margins.bottom),
@@ -98,6 +126,7 @@ Plot plot_in(const Chart& chart, const Box& cell, const FrameMargins& margins) {
         fmt::format("render: chart '{}' does not fit into {:.0f} x {:.0f} pixels; make the picture "
                     "larger",
                     chart.title, cell.width, cell.height));
+  if (chart.to_scale) make_equal(plot);
   return plot;
 }
 
@@ -105,6 +134,7 @@ Plot plot_in(const Chart& chart, const Box& cell, const FrameMargins& margins) {
 /// for it [pixels]; 0: not decided yet.
 ChartPlan plan(const Chart& chart, const Box& cell, FrameMargins margins, double aside) {
   ChartPlan result{plot_in(chart, cell, margins), legend_of(chart), {}};
+  shorten(result.entries, 0.5 * cell.width);
   const Pixel extent = legend_extent(result.entries);
   if (aside == 0)
     if (const auto corner = free_corner(result.plot.box, extent, all_lines(chart, result.plot))) {

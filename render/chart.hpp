@@ -49,6 +49,7 @@ struct Chart {
   ChartAxis x, y;
   std::vector<ChartSeries> series;  ///< the first is drawn on top
   std::vector<ReferenceLine> references;
+  bool to_scale = false;  ///< a unit is as long along x as along y: one range is made longer than asked for
 };
 
 struct ChartFigure {

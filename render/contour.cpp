@@ -336,7 +336,8 @@ void draw_panel(Canvas& canvas, const Scene& scene, const Plot& plot, FieldStyle
   const ContourPanel& panel = scene.panel;
   canvas.clip(plot.box);
   if (style != FieldStyle::particles && panel.smooth)
-    draw_isolines(canvas, plot.box, on_picture(*panel.smooth, plot, false), scene.scale.levels);
+    draw_isolines(canvas, plot.box, on_picture(*panel.smooth, plot, false), scene.scale.levels,
+                  probe_boxes(plot, panel.scenery));
   draw_outlines_before(canvas, plot, panel.before);
   if (!panel.crosses.empty()) draw_crosses(canvas, plot, scene.positions, panel.crosses);
   if (!panel.arrows.empty()) draw_arrows(canvas, plot, scene.positions, panel.arrows);
@@ -401,6 +402,26 @@ void with_drawing(const ContourFigure& figure, Use&& use) {
 
 void save_contours(const ContourFigure& figure, const std::filesystem::path& path) {
   with_drawing(figure, [&](const Drawing& drawing) { save_drawing(drawing, path); });
+}
+
+void save_each_panel(const ContourFigure& figure, int width,
+                     const std::vector<std::filesystem::path>& paths) {
+  const std::vector<Scene> scenes = make_scenes(figure);
+  const Extent world = common_world(scenes);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    ContourFigure one{.title = figure.title,
+                      .panels = {figure.panels[i]},
+                      .scale = figure.scale,
+                      .style = figure.style,
+                      .include = figure.include,
+                      .columns = 1,
+                      .width = width,
+                      .height = 0};
+    one.include.emplace_back(world.x_low, world.y_low);
+    one.include.emplace_back(world.x_high, world.y_high);
+    if (!figure.panels[i].own_scale) one.scale.range = scenes[i].scale.range;
+    save_contours(one, paths.at(i));
+  }
 }
 
 void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)>& figure,

@@ -65,6 +65,10 @@ struct ContourFigure {
 /// a picture that is too small for its panels, a missing font or a file that cannot be written.
 void save_contours(const ContourFigure& figure, const std::filesystem::path& path);
 
+/// Draws each panel as a picture of its own, one file each, with the range of colours and the places of the
+/// whole figure; `width` [pixels], as high as it needs to be. Throws as save_contours.
+void save_each_panel(const ContourFigure& figure, int width, const std::vector<std::filesystem::path>& paths);
+
 /// Draws figures one after the other into an animated WebP. All have the size of the last one, or the one
 /// they ask for. Throws as save_contours, and for figures that do not fit that size.
 void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)>& figure,

@@ -33,7 +33,7 @@ bool overlap(const Box& a, const Box& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.top() && b.y < a.top();
 }
 
-/// One label on a line, where it is in the frame and hides no other one.
+/// One label on a line, where it is in the frame and hides nothing that is taken.
 void label_line(Canvas& canvas, const Box& frame, const std::vector<Pixel>& line, const std::string& label,
                 std::vector<Box>& taken) {
   constexpr double size = 11, margin = 3;
@@ -109,7 +109,7 @@ Principal principal_of(const Stress& s) {
 }  // namespace
 
 void draw_isolines(Canvas& canvas, const Box& frame, const TriangleField& field,
-                   std::span<const double> levels) {
+                   std::span<const double> levels, std::vector<Box> taken) {
   const std::vector<std::string> labels = linear_tick_labels({levels.begin(), levels.end()}).labels;
   std::vector<std::vector<std::vector<Pixel>>> lines;
   for (const double level : levels) {
@@ -119,7 +119,6 @@ void draw_isolines(Canvas& canvas, const Box& frame, const TriangleField& field,
       canvas.line(line,
                   is_zero ? Pen{.colour = black, .width = 2.2} : Pen{.colour = {60, 60, 60}, .width = 0.8});
   }
-  std::vector<Box> taken;
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const auto& line : lines[i]) label_line(canvas, frame, line, labels[i], taken);
 }

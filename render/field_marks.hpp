@@ -11,9 +11,10 @@
 
 namespace porosph {
 
-/// Lines on which the field has the levels, each with its label where there is room; zero is drawn heavier.
+/// Lines on which the field has the levels, each with its label where there is room beside the others and the
+/// boxes that are `taken`; zero is drawn heavier.
 void draw_isolines(Canvas& canvas, const Box& frame, const TriangleField& field,
-                   std::span<const double> levels);
+                   std::span<const double> levels, std::vector<Box> taken);
 
 /// Arrows at particles about `mark_spacing` apart, the longest of them that long [any unit].
 void draw_arrows(Canvas& canvas, const Plot& plot, const std::vector<Point>& at,

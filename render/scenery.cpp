@@ -239,22 +239,39 @@ Box name_place(Pixel at, Pixel extent, const Plot& plot, const Scenery& scenery,
   return best;
 }
 
-void draw_probes(Canvas& canvas, const Plot& plot, const Scenery& scenery) {
+struct PlacedProbe {
+  Pixel at;
+  double text_size = 0;
+  Box name;  ///< of no width where it has none
+};
+
+std::vector<PlacedProbe> placed_probes(const Plot& plot, const Scenery& scenery) {
   std::vector<Box> taken;
   for (const ProbeCase& probe : scenery.probes) {
     const Pixel at = plot.at(probe.position.x(), probe.position.y());
     taken.push_back({at.x - probe_radius, at.y - probe_radius, 2 * probe_radius, 2 * probe_radius});
   }
+  std::vector<PlacedProbe> placed;
   for (const ProbeCase& probe : scenery.probes) {
-    const Pixel at = plot.at(probe.position.x(), probe.position.y());
+    PlacedProbe p{.at = plot.at(probe.position.x(), probe.position.y()), .text_size = 0, .name = {}};
     if (!probe.name.empty()) {
-      const double size = fitting_size(probe.name, title_text, 0.5 * plot.box.width);
-      const Box place = name_place(at, text_extent(probe.name, size), plot, scenery, taken);
-      canvas.text({place.x + 2, place.centre().y}, probe.name,
-                  {.size = size, .horizontal = Align::low, .halo = true});
-      taken.push_back(place);
+      p.text_size = fitting_size(probe.name, title_text, 0.5 * plot.box.width);
+      p.name = name_place(p.at, text_extent(probe.name, p.text_size), plot, scenery, taken);
+      taken.push_back(p.name);
     }
-    canvas.disc(at, probe_radius, {.colour = white}, {.colour = black, .width = 1.4});
+    placed.push_back(p);
+  }
+  return placed;
+}
+
+void draw_probes(Canvas& canvas, const Plot& plot, const Scenery& scenery) {
+  const std::vector<PlacedProbe> placed = placed_probes(plot, scenery);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const PlacedProbe& p = placed[i];
+    if (p.name.width > 0)
+      canvas.text({p.name.x + 2, p.name.centre().y}, scenery.probes[i].name,
+                  {.size = p.text_size, .horizontal = Align::low, .halo = true});
+    canvas.disc(p.at, probe_radius, {.colour = white}, {.colour = black, .width = 1.4});
   }
 }
 
@@ -330,6 +347,15 @@ std::vector<Interval> soil_intervals(const std::vector<SoilOutline>& soils, doub
 std::vector<Interval> free_intervals(const std::vector<SoilOutline>& soils, double y, double x_from,
                                      double x_to) {
   return intervals(soils, y, x_from, x_to, false);
+}
+
+std::vector<Box> probe_boxes(const Plot& plot, const Scenery& scenery) {
+  std::vector<Box> boxes;
+  for (const PlacedProbe& p : placed_probes(plot, scenery)) {
+    boxes.push_back({p.at.x - probe_radius, p.at.y - probe_radius, 2 * probe_radius, 2 * probe_radius});
+    if (p.name.width > 0) boxes.push_back(p.name);
+  }
+  return boxes;
 }
 
 void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to) {

@@ -45,6 +45,9 @@ std::vector<Interval> free_intervals(const std::vector<SoilOutline>& soils, doub
 
 bool inside_soil(const std::vector<SoilOutline>& soils, Point point);
 
+/// Where draw_scenery puts probes and their names.
+std::vector<Box> probe_boxes(const Plot& plot, const Scenery& scenery);
+
 /// Soil outlines, water level with its triangle, supports on the side away from the soil, loads, probes,
 /// further lines with a legend where it hides none of them. Lines only: water is filled beneath the
 /// particles. Water is drawn from `x_from` to `x_to` at most.

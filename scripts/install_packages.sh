@@ -5,8 +5,8 @@ set -euo pipefail
 
 compute=(g++ cmake ninja-build libeigen3-dev libboost-dev libboost-program-options-dev libtomlplusplus-dev
          nlohmann-json3-dev libfmt-dev)
-release=("${compute[@]}" libvtk9-dev libosmesa6-dev libcairo2-dev libwebp-dev pkg-config fonts-dejavu-core)
-tests=("${release[@]}" catch2 python3 chromium)
+release=("${compute[@]}" libvtk9-dev libgdal-dev libosmesa6-dev libcairo2-dev libwebp-dev pkg-config fonts-dejavu-core)
+tests=("${release[@]}" catch2 python3 python3-vtk9 python3-numpy chromium)
 nightly=("${tests[@]}" clang libclang-rt-14-dev libomp-dev clang-tidy cppcheck gcovr)  # sanitizers, fuzzing, lint, coverage
 benchmarks=("${compute[@]}" catch2 libbenchmark-dev)  # the micro-benchmarks
 package=("${release[@]}" dpkg-dev file)  # packs the .deb

@@ -101,10 +101,45 @@ std::string table(const std::vector<std::vector<std::string>>& rows, bool number
   return text + "</tbody>\n</table></div>\n";
 }
 
-std::string figure(const std::string& file, const std::string& description, const std::string& caption) {
+namespace {
+
+/// `lazy`: where only some windows show the picture.
+std::string linked(const std::string& file, const std::string& description, bool lazy) {
+  return fmt::format("<a href=\"{0}\"><img src=\"{0}\"{2} alt=\"{1}\"></a>", escaped(file),
+                     escaped(description), lazy ? " loading=\"lazy\"" : "");
+}
+
+}  // namespace
+
+std::string figure(const std::string& file, const std::string& description, const std::string& caption,
+                   const std::vector<std::string>& panels) {
+  if (panels.size() < 2)
+    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", linked(file, description, false),
+                       escaped(caption));
+  std::string narrow;
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    narrow += linked(panels[i], fmt::format("{}, {} of {}", description, i + 1, panels.size()), true) + "\n";
   return fmt::format(
-      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{2}</figcaption></figure>\n",
-      escaped(file), escaped(description), escaped(caption));
+      "<figure><div class=\"wide\">{}</div>\n<div class=\"narrow\">\n{}</div>"
+      "<figcaption>{}</figcaption></figure>\n",
+      linked(file, description, true), narrow, escaped(caption));
+}
+
+std::string player(const std::vector<Instant>& frames, const std::string& description) {
+  std::string text =
+      fmt::format("<div class=\"player\" aria-label=\"{}\">\n<ol class=\"strip\">\n", escaped(description));
+  for (const Instant& frame : frames)
+    text += fmt::format("<li><figure>{}<figcaption>{}</figcaption></figure></li>\n",
+                        linked(frame.file, description + ", " + frame.caption, true), escaped(frame.caption));
+  return text + "</ol>\n</div>\n";
+}
+
+std::string slider(const Instant& a, const Instant& b) {
+  std::string text = "<div class=\"slider\">\n";
+  for (const Instant* side : {&a, &b})
+    text += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                        linked(side->file, side->caption, false), escaped(side->caption));
+  return text + "</div>\n";
 }
 
 std::string paragraph(const std::string& text, const std::string& style) {
@@ -144,8 +179,8 @@ std::string page(const std::string& title, const std::string& body) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      escaped(title), resources::report_style, body);
+      "<style>{}</style>\n</head>\n<body>\n{}<script>\n{}</script>\n</body>\n</html>\n",
+      escaped(title), resources::report_style, body, resources::report_script);
 }
 
 }  // namespace porosph::html

@@ -14,9 +14,21 @@ std::string escaped(const std::string& text);
 /// right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
-/// A link to the picture in full size around it. `file` lies beside the page. `description` is read out where
-/// the picture is not seen, `caption` stands below it.
-std::string figure(const std::string& file, const std::string& description, const std::string& caption);
+/// A picture and, for narrow windows, its panels one below the other; each is a link to itself in full size.
+/// Files lie beside the page. `description` is read out where the picture is not seen, `caption` stands
+/// below.
+std::string figure(const std::string& file, const std::string& description, const std::string& caption,
+                   const std::vector<std::string>& panels = {});
+
+struct Instant {
+  std::string file, caption;
+};
+/// Pictures that a script plays one after the other; without it a strip to be scrolled through.
+std::string player(const std::vector<Instant>& frames, const std::string& description);
+
+/// Two pictures of one size that a script lays upon each other, with a slider between; without it one is
+/// below the other.
+std::string slider(const Instant& a, const Instant& b);
 
 /// `style`: a class of the page's style sheet; empty for plain text.
 std::string paragraph(const std::string& text, const std::string& style = "");
@@ -33,8 +45,8 @@ std::string with_pictures(std::string page, const std::filesystem::path& folder)
 /// Names of the files that the page shows as pictures.
 std::vector<std::string> pictures_of(const std::string& page);
 
-/// A whole page, light or dark as the reader's system is, fit to be printed, without scripts or outside
-/// files.
+/// A whole page, light or dark as the reader's system is, fit to be printed, without outside files. A small
+/// script drives players and sliders; the page is whole without it.
 std::string page(const std::string& title, const std::string& body);
 
 }  // namespace porosph::html

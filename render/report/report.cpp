@@ -14,6 +14,7 @@
 #include "render/report/html.hpp"
 #include "render/report/report_pictures.hpp"
 #include "render/report/settings.hpp"
+#include "render/report/stages_section.hpp"
 #include "render/report/study.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
@@ -124,6 +125,33 @@ FieldSelection selection_of(const std::string& text) {
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
 }
 
+/// Shares of what gravity released; no row but the head where no run has soil that flows.
+Rows energy_table(const std::vector<LoadedRun>& runs) {
+  Rows rows = {{"Energy"}};
+  const auto add = [&](const char* name, auto&& part) {
+    std::vector<std::string> row = {name};
+    for (const LoadedRun& r : runs) {
+      const auto& energy = r.run.summary->energy;
+      row.push_back(energy ? part(*energy) : "–");
+    }
+    rows.push_back(std::move(row));
+  };
+  if (std::ranges::none_of(runs, [](const LoadedRun& r) { return r.run.summary->energy.has_value(); }))
+    return rows;
+  for (const LoadedRun& r : runs) rows[0].push_back(r.label);
+  using Budget = Summary::EnergyBudget;
+  add("released [J/m]", [](const Budget& e) { return number(e.released, "{:.4g}"); });
+  const auto share = [&](const char* name, double Budget::*part) {
+    add(name, [part](const Budget& e) { return number(100 * e.*part / e.released, "{:.2f} %"); });
+  };
+  share("kinetic now", &Budget::kinetic), share("elastic gained", &Budget::elastic);
+  share("dissipated by the soil", &Budget::plastic), share("by the zero-energy control", &Budget::control);
+  share("by the diffusion of stress", &Budget::diffusion);
+  share("by bulk viscosity", &Budget::bulk_viscosity);
+  share("unaccounted for", &Budget::unaccounted);
+  return rows;
+}
+
 Rows error_table(const std::vector<LoadedRun>& runs) {
   Rows rows = {{"Field"}};
   std::map<std::string, std::size_t> row_of;
@@ -213,7 +241,7 @@ bool all_have(const std::vector<LoadedRun>& runs, const FieldSelection& field) {
 
 std::string pictures_of(const std::vector<ReportPicture>& pictures) {
   std::string text;
-  for (const ReportPicture& p : pictures) text += html::figure(p.file, p.description, p.caption);
+  for (const ReportPicture& p : pictures) text += html::figure(p.file, p.description, p.caption, p.panels);
   return text;
 }
 
@@ -305,6 +333,7 @@ std::string markdown_summary(const ReportInput& input, const std::vector<LoadedR
   for (const std::string& w : warnings) text += "- **" + html::escaped(w) + "**\n";
   if (!warnings.empty()) text += "\n";
   text += markdown(run_table(runs));
+  if (const Rows rows = energy_table(runs); rows.size() > 1) text += "### Energy\n\n" + markdown(rows);
   if (!input.thresholds.empty()) text += "### Thresholds\n\n" + markdown(checked.rows);
   if (const Rows rows = error_table(runs); rows.size() > 1)
     text += "### Errors against the exact solution\n\n" + markdown(rows);
@@ -312,121 +341,172 @@ std::string markdown_summary(const ReportInput& input, const std::vector<LoadedR
   return text + html::escaped(input.made) + "\n";
 }
 
-/// All that the page is made of.
-struct Material {
-  const ReportInput& input;
-  const fs::path& folder;
-  std::vector<std::string> labels;
-  std::vector<LoadedRun> runs;
-  std::vector<std::vector<FieldNorms>> fem;
-  std::vector<Json> summaries;
-  Checked checked;
-  std::vector<std::string> warnings;
-
-  const Case& scene() const { return *runs.front().run.scene; }
-};
-
-Material load(const ReportInput& input, const fs::path& folder) {
-  Material m{input, folder, run_labels(input.runs), {}, {}, {}, {}, {}};
-  for (std::size_t i = 0; i < input.runs.size(); ++i) {
-    const std::size_t last = input.runs[i].series.frames.size() - 1;
-    m.runs.push_back({input.runs[i], m.labels[i], frame_of(input.runs[i], last)});
+/// What is drawn: as asked for, else what all runs have of the usual ones, the vertical effective stress
+/// first.
+std::vector<ReportField> fields_of(const ReportInput& input, const std::vector<LoadedRun>& runs) {
+  if (!input.fields.empty()) {
+    for (const ReportField& shown : input.fields)
+      for (const LoadedRun& r : runs) values_of(r.last, shown.field);  // says what is missing
+    return input.fields;
   }
-  m.fem.resize(m.runs.size());
-  for (std::size_t i = 0; i < m.runs.size(); ++i) {
-    if (input.fem) m.fem[i] = fem_norms(m.runs[i].last, *input.fem, input.left_out);
-    m.summaries.push_back(summary_json(m.runs[i], m.fem[i]));
-  }
-  m.checked = check_all(input.thresholds, m.runs, m.summaries);
-  for (const std::string& w : m.checked.failed) m.warnings.push_back("Threshold failed: " + w);
-  for (const LoadedRun& r : m.runs)
-    for (std::string& w : warnings_of(r)) m.warnings.push_back(std::move(w));
-  return m;
-}
-
-std::string head_of(const Material& m) {
-  return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
-         html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
-                                   m.runs.front().run.summary->particles, fmt::join(m.labels, ", "))) +
-         "</p>\n" + (m.input.made.empty() ? "" : html::paragraph(m.input.made));
-}
-
-std::string stress_sections(const Material& m) {
-  const FieldSelection vertical{"EffectiveStress", "YY"};
-  std::vector<ReportPicture> contours;
+  std::vector<ReportField> fields;
   for (const FieldSelection& field :
-       {FieldSelection{"TotalStress", "YY"}, vertical, FieldSelection{"Displacement", "Y"}})
-    if (all_have(m.runs, field)) contours.push_back(draw_contours(m.runs, m.input.fem, field, m.folder));
-  const bool has_vertical = all_have(m.runs, vertical);
-  if (has_vertical)
-    if (auto picture = draw_differences(m.runs, m.input.fem, m.input.left_out, vertical, m.folder))
-      contours.push_back(std::move(*picture));
-  std::string body = html::section("Stress and displacement", pictures_of(contours));
-  if (has_vertical)
-    if (auto picture = draw_sections(m.runs, m.input.fem, m.folder))
-      body += html::section("Stress with height", pictures_of({std::move(*picture)}) +
-                                                      "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
-  return body;
+       {FieldSelection{"EffectiveStress", "YY"}, FieldSelection{"TotalStress", "YY"},
+        FieldSelection{"Displacement", "Y"}})
+    if (all_have(runs, field)) fields.push_back({field, {}});
+  return fields;
 }
 
-std::string probe_section(const Material& m) {
-  std::vector<ReportPicture> histories;
-  if (auto picture = draw_histories(m.input.runs, m.labels, m.folder))
-    histories.push_back(std::move(*picture));
-  if (m.input.fem)
-    for (const ProbeCase& probe : m.scene().probes)
-      if (auto picture = draw_probe(m.runs, *m.input.fem, probe, m.folder))
-        histories.push_back(std::move(*picture));
-  if (m.scene().probes.empty()) return "";
-  return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
-}
-
-std::string difference_sections(const Material& m) {
-  std::string body;
-  if (const Rows rows = error_table(m.runs); rows.size() > 1)
-    body += html::section(
-        "Errors against the exact solution",
-        "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
-  std::vector<Summary> told;
-  for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
-  body += fem_check_section(m.labels, told);
-  if (m.input.fem) {
-    std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
-    for (const LeftOut& o : m.input.left_out)
-      text += html::escaped(
-          fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
-    body += html::section("Differences from finite elements",
-                          text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
+/// Each field of all runs, what differs in the first (in all that were asked for), and a slider for two runs.
+std::string fields_part(const std::vector<LoadedRun>& runs, const ReportInput& input,
+                        const std::vector<ReportField>& fields, const fs::path& folder) {
+  std::string text;
+  for (const ReportField& shown : fields) {
+    text += pictures_of({draw_contours(runs, input.fem, shown, folder)});
+    if (&shown != &fields.front() && input.fields.empty()) continue;
+    if (auto picture = draw_differences(runs, input.fem, input.left_out, shown.field, folder))
+      text += pictures_of({std::move(*picture)});
   }
-  if (!m.input.thresholds.empty()) body += html::section("Thresholds", html::table(m.checked.rows, false));
-  return body;
+  if (runs.size() != 2 || fields.empty()) return text;
+  const std::vector<html::Instant> pair = draw_pair(runs[0], runs[1], fields.front(), folder);
+  return text + "<h3>One against the other</h3>\n" + html::slider(pair[0], pair[1]);
 }
 
-std::string development_section(const Material& m) {
-  std::vector<ReportPicture> developments;
-  for (const LoadedRun& r : m.runs)
-    if (all_have({r}, {"EffectiveStress", "YY"}) && r.run.series.frames.size() > 2)
-      developments.push_back(draw_development(r, {"EffectiveStress", "YY"}, m.folder));
-  return developments.empty() ? "" : html::section("How the stress develops", pictures_of(developments));
-}
+/// Six instants, and a player, of each run that has frames between its ends; narrow windows have the player
+/// alone.
+std::string development_part(const std::vector<LoadedRun>& runs, const ReportField& shown,
+                             const ReportInput& input, const fs::path& folder) {
+  const bool plays = input.instants > 1;
+  std::string text;
+  for (const LoadedRun& r : runs) {
+    if (r.run.series.frames.size() < 3) continue;
+    const std::string six = pictures_of({draw_development(r, shown, !plays, folder)});
+    text += plays ? "<div class=\"wide\">\n" + six + "</div>\n" : six;
+    if (plays)
+      text += html::player(draw_instants(r, shown, input.instants, folder),
+                           shown_name(shown.field) + " in run " + r.label);
+  }
+  return text;
 
-std::string body_of(const Material& m) {
-  std::string body = html::section("Runs", html::table(run_table(m.runs)));
-  body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
-  body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
-  if (const Rows rows = settings_table(m.runs); rows.size() > 1)
-    body += html::section("Settings that differ", html::table(rows, false));
-  for (std::size_t i = 0; i < m.input.studies.size(); ++i)
-    body += study_section(m.input.studies[i], m.folder, fmt::format("study_{}_", i + 1));
-  return body + html::section("How to reproduce", how_to_reproduce(m.input, m.runs));
-}
+  /// All that the page is made of.
+  struct Material {
+    const ReportInput& input;
+    const fs::path& folder;
+    std::vector<std::string> labels;
+    std::vector<LoadedRun> runs;
+    std::vector<std::vector<FieldNorms>> fem;
+    std::vector<Json> summaries;
+    Checked checked;
+    std::vector<std::string> warnings;
+    std::vector<ReportField> fields;  ///< that are drawn
 
-Json json_of(const Material& m) {
-  Json json = {{"runs", Json::object()}, {"thresholds", m.checked.json}, {"warnings", m.warnings}};
-  for (std::size_t i = 0; i < m.runs.size(); ++i) json["runs"][m.runs[i].label] = m.summaries[i];
-  for (const fs::path& study : m.input.studies) json["studies"].push_back(to_json(read_study(study)));
-  return json;
-}
+    const Case& scene() const { return *runs.front().run.scene; }
+  };
+
+  Material load(const ReportInput& input, const fs::path& folder) {
+    Material m{input, folder, run_labels(input.runs), {}, {}, {}, {}, {}, {}};
+    for (std::size_t i = 0; i < input.runs.size(); ++i) {
+      const std::size_t last = input.runs[i].series.frames.size() - 1;
+      m.runs.push_back({input.runs[i], m.labels[i], frame_of(input.runs[i], last)});
+    }
+    m.fem.resize(m.runs.size());
+    for (std::size_t i = 0; i < m.runs.size(); ++i) {
+      if (input.fem) m.fem[i] = fem_norms(m.runs[i].last, *input.fem, input.left_out);
+      m.summaries.push_back(summary_json(m.runs[i], m.fem[i]));
+    }
+    m.checked = check_all(input.thresholds, m.runs, m.summaries);
+    for (const std::string& w : m.checked.failed) m.warnings.push_back("Threshold failed: " + w);
+    for (const LoadedRun& r : m.runs)
+      for (std::string& w : warnings_of(r)) m.warnings.push_back(std::move(w));
+    m.fields = fields_of(input, m.runs);
+    return m;
+  }
+
+  std::vector<Summary> summaries_of(const Material& m) {
+    std::vector<Summary> told;
+    for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+    return told;
+  }
+
+  std::string head_of(const Material& m) {
+    return "<h1>" + html::escaped(m.scene().title) + "</h1>\n<p class=\"lead\">" +
+           html::escaped(fmt::format("{} of {} particles: {}", m.runs.size() == 1 ? "A run" : "Runs",
+                                     m.runs.front().run.summary->particles, fmt::join(m.labels, ", "))) +
+           "</p>\n" + (m.input.made.empty() ? "" : html::paragraph(m.input.made));
+  }
+
+  std::string stress_sections(const Material& m) {
+    const std::string shown = fields_part(m.runs, m.input, m.fields, m.folder);
+    std::string body = html::section(m.input.fields.empty() ? "Stress and displacement" : "Fields", shown);
+    if (m.fields.empty()) return body;
+    if (auto picture = draw_sections(m.runs, m.input.fem, m.input.sections, m.fields.front().field, m.folder))
+      body += html::section("Sections", pictures_of({std::move(*picture)}) +
+                                            "<p><a href=\"sections.csv\">sections.csv</a></p>\n");
+    return body;
+  }
+
+  std::string probe_section(const Material& m) {
+    std::vector<ReportPicture> histories;
+    if (auto picture = draw_histories(m.input.runs, m.labels, m.folder))
+      histories.push_back(std::move(*picture));
+    for (const auto& draw : {draw_settlement, draw_stress_paths})
+      if (auto picture = draw(m.input.runs, m.labels, m.folder)) histories.push_back(std::move(*picture));
+    if (m.input.fem)
+      for (const ProbeCase& probe : m.scene().probes)
+        if (auto picture = draw_probe(m.runs, *m.input.fem, probe, m.folder))
+          histories.push_back(std::move(*picture));
+    if (m.scene().probes.empty()) return "";
+    return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
+  }
+
+  std::string difference_sections(const Material& m) {
+    std::string body;
+    if (const Rows rows = energy_table(m.runs); rows.size() > 1)
+      body += html::section("Energy",
+                            "<p>Where the energy went that gravity released.</p>\n" + html::table(rows));
+    if (const Rows rows = error_table(m.runs); rows.size() > 1)
+      body += html::section(
+          "Errors against the exact solution",
+          "<p>Relative L2 norm over all particles, and the largest difference.</p>\n" + html::table(rows));
+    std::vector<Summary> told;
+    for (const LoadedRun& r : m.runs) told.push_back(*r.run.summary);
+    body += fem_check_section(m.labels, told);
+    if (m.input.fem) {
+      std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
+      for (const LeftOut& o : m.input.left_out)
+        text += html::escaped(
+            fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
+      body += html::section("Differences from finite elements",
+                            text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
+    }
+    if (!m.input.thresholds.empty()) body += html::section("Thresholds", html::table(m.checked.rows, false));
+    return body;
+  }
+
+  std::string development_section(const Material& m) {
+    if (m.fields.empty()) return "";
+    const std::string text = development_part(m.runs, m.fields.front(), m.input, m.folder);
+    return text.empty() ? "" : html::section("How it develops", text);
+  }
+
+  std::string body_of(const Material& m) {
+    std::string body = html::section("Runs", html::table(run_table(m.runs)));
+    body += stages_section(m.labels, summaries_of(m));
+    body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
+    body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
+    if (const Rows rows = settings_table(m.runs); rows.size() > 1)
+      body += html::section("Settings that differ", html::table(rows, false));
+    for (std::size_t i = 0; i < m.input.studies.size(); ++i)
+      body += study_section(m.input.studies[i], m.folder, fmt::format("study_{}_", i + 1));
+    return body + html::section("How to reproduce", how_to_reproduce(m.input, m.runs));
+  }
+
+  Json json_of(const Material& m) {
+    Json json = {{"runs", Json::object()}, {"thresholds", m.checked.json}, {"warnings", m.warnings}};
+    for (std::size_t i = 0; i < m.runs.size(); ++i) json["runs"][m.runs[i].label] = m.summaries[i];
+    for (const fs::path& study : m.input.studies) json["studies"].push_back(to_json(read_study(study)));
+    return json;
+  }
 
 }  // namespace
 

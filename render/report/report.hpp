@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/run/norms.hpp"
+#include "render/report/report_pictures.hpp"
 #include "vtk_io/run_folder/threshold.hpp"
 
 namespace porosph {
@@ -18,6 +18,9 @@ struct ReportInput {
   std::vector<LeftOut> left_out;               ///< of the norms against finite elements
   std::vector<Threshold> thresholds;           ///< each is checked for each run
   std::vector<std::filesystem::path> studies;  ///< folders of studies, each shown as a section
+  std::vector<ReportField> fields;             ///< to draw; empty: vertical stresses and displacement
+  std::vector<SectionLine> sections;           ///< empty: verticals through the probes
+  std::size_t instants = 20;                   ///< of the player; less than 2: none
   std::string command;                         ///< the command line that makes this report
   std::string made;                            ///< when, by which program, on which machine
   bool single_file = false;                    ///< the pictures go into the page

@@ -10,12 +10,47 @@
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
+#include "render/run/stress_paths.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int narrow = 480, instant_width = 900;  // pixels
+
+/// Names for the panels of a picture: "history_1.png", ...; none where there is one only.
+std::vector<std::string> panel_names(const std::string& stem, std::size_t panels) {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; panels > 1 && i <= panels; ++i) names.push_back(fmt::format("{}_{}.png", stem, i));
+  return names;
+}
+
+std::vector<fs::path> within(const fs::path& folder, const std::vector<std::string>& names) {
+  std::vector<fs::path> paths;
+  for (const std::string& name : names) paths.push_back(folder / name);
+  return paths;
+}
+
+/// Draws the figure into STEM.png, and each of its panels for narrow windows.
+ReportPicture draw(const ContourFigure& figure, const fs::path& folder, const std::string& stem,
+                   const std::string& description, const std::string& caption) {
+  save_contours(figure, folder / (stem + ".png"));
+  const std::vector<std::string> names = panel_names(stem, figure.panels.size());
+  if (!names.empty()) save_each_panel(figure, narrow, within(folder, names));
+  return {stem + ".png", description, caption, names};
+}
+
+ReportPicture draw(const ChartFigure& figure, const fs::path& folder, const std::string& stem,
+                   const std::string& description, const std::string& caption) {
+  save_charts(figure, folder / (stem + ".png"));
+  const std::vector<std::string> names = panel_names(stem, figure.charts.size());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    save_charts({.title = "", .charts = {figure.charts[i]}, .width = narrow, .height = 360},
+                folder / names[i]);
+  return {stem + ".png", description, caption, names};
+}
 
 /// Frame numbers, closer together at the start, where most happens.
 std::vector<std::size_t> instants(std::size_t frames) {
@@ -28,8 +63,10 @@ std::vector<std::size_t> instants(std::size_t frames) {
   return {chosen.begin(), chosen.end()};
 }
 
+const SectionLine upright{.kind = SectionLine::vertical, .points = {}, .at = 0};
+
 /// Of the first three probes that are some distance apart, or the middle of the soil.
-std::vector<double> verticals_of(const Case& scene) {
+std::vector<SectionLine> verticals_of(const Case& scene) {
   double low = never, high = -never;
   for (const SoilCase& soil : scene.soils)
     for (const Point& p : soil.polygon) low = std::min(low, p.x()), high = std::max(high, p.x());
@@ -41,12 +78,14 @@ std::vector<double> verticals_of(const Case& scene) {
         std::ranges::none_of(places, [&](double x) { return std::abs(x - probe.position.x()) < apart; }))
       places.push_back(probe.position.x());
   if (places.empty()) places.push_back(0.5 * (low + high));
-  return places;
+  std::vector<SectionLine> lines(places.size(), upright);
+  for (std::size_t i = 0; i < lines.size(); ++i) lines[i].at = places[i];
+  return lines;
 }
 
-/// The run's last frame on a vertical; nothing where the soil has left it.
-std::optional<RunSection> vertical_of(const LoadedRun& run, const SectionLine& line,
-                                      const std::vector<FieldSelection>& fields) {
+/// The run's last frame on a line; nothing where the soil has left it.
+std::optional<RunSection> end_on(const LoadedRun& run, const SectionLine& line,
+                                 const std::vector<FieldSelection>& fields) {
   try {
     return section_of(run.run, run.label, run.last, line, 0, fields);
   } catch (const NoSoil&) {
@@ -57,16 +96,16 @@ std::optional<RunSection> vertical_of(const LoadedRun& run, const SectionLine& l
 }  // namespace
 
 std::optional<ReportPicture> draw_sections(const std::vector<LoadedRun>& runs,
-                                           const std::optional<FemReference>& fem, const fs::path& folder) {
+                                           const std::optional<FemReference>& fem,
+                                           const std::vector<SectionLine>& lines, const FieldSelection& field,
+                                           const fs::path& folder) {
   const Case& scene = *runs.front().run.scene;
-  const FieldSelection field{"EffectiveStress", "YY"};
   std::vector<Chart> charts;
   std::vector<RunSection> all;
-  for (const double x : verticals_of(scene)) {
-    const SectionLine line{.kind = SectionLine::vertical, .points = {}, .at = x};
+  for (const SectionLine& line : lines.empty() ? verticals_of(scene) : lines) {
     std::vector<RunSection> sections, references;
     for (const LoadedRun& run : runs)
-      if (auto section = vertical_of(run, line, {field})) sections.push_back(std::move(*section));
+      if (auto section = end_on(run, line, {field})) sections.push_back(std::move(*section));
     if (sections.empty()) continue;
     if (auto exact = exact_section(scene, sections.front())) references.push_back(std::move(*exact));
     if (fem) references.push_back(fem_section(*fem, sections.front()));
@@ -76,13 +115,12 @@ std::optional<ReportPicture> draw_sections(const std::vector<LoadedRun>& runs,
     all.insert(all.end(), references.begin(), references.end());
   }
   if (charts.empty()) return std::nullopt;
-  save_charts(section_figure({.kind = SectionLine::vertical, .points = {}, .at = 0}, std::move(charts),
-                             shown_name(field) + " with height"),
-              folder / "sections.png");
   write_file(folder / "sections.csv", section_csv(all, {field}));
-  return ReportPicture{"sections.png", shown_name(field) + " along verticals through the soil",
-                       fmt::format("{} on verticals at the end of {}. The numbers are in sections.csv.",
-                                   shown_name(field), runs.size() == 1 ? "the run" : "each run")};
+  const SectionLine& shape = lines.empty() ? upright : lines.front();
+  return draw(section_figure(shape, std::move(charts), shown_name(field) + " along sections"), folder,
+              "sections", shown_name(field) + " along sections through the soil",
+              fmt::format("{} along sections at the end of {}. The numbers are in sections.csv.",
+                          shown_name(field), runs.size() == 1 ? "the run" : "each run"));
 }
 
 ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
@@ -111,7 +149,8 @@ ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
 }
 
 ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optional<FemReference>& fem,
-                            const FieldSelection& field, const fs::path& folder) {
+                            const ReportField& shown, const fs::path& folder) {
+  const FieldSelection& field = shown.field;
   std::vector<std::vector<double>> values;
   double largest = 0;
   for (const LoadedRun& r : runs) {
@@ -132,12 +171,11 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
     figure.panels.push_back(fem_panel(*fem, runs.front().run, runs.front().last, field, unit.factor));
     values.push_back(figure.panels.back().particles.values);
   }
-  figure.scale = scale_of(field, unit, runs.front().run.scene, range_of_runs(values, usual_map(field)));
-  const std::string file = "contours_" + file_name(field.text()) + ".png";
-  save_contours(figure, folder / file);
-  return {file, shown_name(field) + " of all runs",
-          fmt::format("{} at the end of {}, one range of colours for all.", shown_name(field),
-                      runs.size() == 1 ? "the run" : "each run")};
+  figure.scale = scale_of(field, unit, runs.front().run.scene,
+                          shown.range ? shown.range : range_of_runs(values, usual_map(field)));
+  return draw(figure, folder, "contours_" + file_name(field.text()), shown_name(field) + " of all runs",
+              fmt::format("{} at the end of {}, one range of colours for all.", shown_name(field),
+                          runs.size() == 1 ? "the run" : "each run"));
 }
 
 std::optional<ReportPicture> draw_differences(const std::vector<LoadedRun>& runs,
@@ -154,13 +192,11 @@ std::optional<ReportPicture> draw_differences(const std::vector<LoadedRun>& runs
   }
   const ContourFigure figure = difference_maps(finished, frames, labels, fem, left_out, field);
   if (figure.panels.empty()) return std::nullopt;
-  const std::string file = "differences_" + file_name(field.text()) + ".png";
-  save_contours(figure, folder / file);
-  return ReportPicture{
-      file, "Maps of differences in " + name_in_sentence(field),
-      fmt::format("Differences in {}, each with a range of colours of its own: relative L2 norm, and the "
-                  "largest difference with its place.",
-                  name_in_sentence(field))};
+  return draw(figure, folder, "differences_" + file_name(field.text()),
+              "Maps of differences in " + name_in_sentence(field),
+              fmt::format("Differences in {}, each with a range of colours of its own: relative L2 norm, and "
+                          "the largest difference with its place.",
+                          name_in_sentence(field)));
 }
 
 std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs,
@@ -168,10 +204,43 @@ std::optional<ReportPicture> draw_histories(const std::vector<FinishedRun>& runs
   const std::vector<Chart> charts = stress_histories(runs, labels);
   if (charts.empty()) return std::nullopt;
   const bool theory = !charts.front().references.empty();
-  save_charts({.title = "Effective vertical stress over time", .charts = charts}, folder / "history.png");
-  return ReportPicture{"history.png", "Effective vertical stress over time at the probes",
-                       std::string("Effective vertical stress at the probes") +
-                           (theory ? ", and the value that theory gives at rest (finite strain)." : ".")};
+  return draw(ChartFigure{.title = "Effective vertical stress over time", .charts = charts}, folder,
+              "history", "Effective vertical stress over time at the probes",
+              std::string("Effective vertical stress at the probes") +
+                  (theory ? ", and the value that theory gives at rest (finite strain)." : "."));
+}
+
+std::optional<ReportPicture> draw_settlement(const std::vector<FinishedRun>& runs,
+                                             const std::vector<std::string>& labels, const fs::path& folder) {
+  std::vector<Chart> charts = settlement_curves(runs, labels);
+  if (charts.empty()) return std::nullopt;
+  return draw(ChartFigure{.title = "Settlement over time", .charts = std::move(charts)}, folder, "settlement",
+              "Settlement over time at the probes", "How far the probes have moved downwards.");
+}
+
+std::optional<ReportPicture> draw_stress_paths(const std::vector<FinishedRun>& runs,
+                                               const std::vector<std::string>& labels,
+                                               const fs::path& folder) {
+  std::vector<FinishedRun> strong = runs;
+  constexpr std::size_t most = 6;
+  std::vector<ProbeCase>& probes = strong.front().scene->probes;
+  std::erase_if(probes, [&](const ProbeCase& probe) {
+    return strength_at(*runs.front().scene, probe.position).empty();
+  });
+  if (probes.size() > most) probes.resize(most);
+  std::vector<std::vector<Chart>> kinds;
+  for (const PathKind kind : {PathKind::pq, PathKind::st, PathKind::mohr})
+    kinds.push_back(stress_paths(strong, labels, kind));
+  ChartFigure figure{.title = "Stress paths", .charts = {}, .columns = 3};
+  for (std::size_t i = 0; i < kinds.front().size(); ++i)
+    for (std::vector<Chart>& charts : kinds) figure.charts.push_back(std::move(charts[i]));
+  if (figure.charts.empty()) return std::nullopt;
+  figure.width = 1600;
+  figure.height = 36 + 420 * static_cast<int>(kinds.front().size());
+  return draw(
+      figure, folder, "stress_paths", "Stress paths and Mohr's circles at the probes",
+      "Stress paths from the start to the end (dot), Mohr's largest circle at the end, and the strength of "
+      "the soil around the probe; compression is positive.");
 }
 
 std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, const FemReference& fem,
@@ -197,23 +266,26 @@ std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, cons
         {.label = "finite elements", .y = fem.values(field, {probe.position})[0] * unit.factor});
     charts.push_back(std::move(chart));
   }
-  const std::string file = "history_" + file_name(probe.name) + ".png";
-  save_charts(
-      {.title = fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y()),
-       .charts = charts,
-       .columns = 2},
-      folder / file);
-  return ReportPicture{
-      file, "Effective stresses over time at probe " + probe.name,
-      fmt::format("Effective stresses at {}, and what finite elements give at rest.", probe.name)};
+  return draw(
+      ChartFigure{
+          .title = fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y()),
+          .charts = charts,
+          .columns = 2},
+      folder, "history_" + file_name(probe.name), "Effective stresses over time at probe " + probe.name,
+      fmt::format("Effective stresses at {}, and what finite elements give at rest.", probe.name));
 }
 
-ReportPicture draw_development(const LoadedRun& loaded, const FieldSelection& field, const fs::path& folder) {
+namespace {
+
+/// Panels of a run's frames, with one range of colours.
+ContourFigure figure_of_frames(const LoadedRun& loaded, const std::vector<std::size_t>& chosen,
+                               const ReportField& shown) {
   const FinishedRun& run = loaded.run;
+  const FieldSelection& field = shown.field;
   std::vector<Frame> frames;
   std::vector<std::vector<double>> values;
   double largest = 0;
-  for (std::size_t i : instants(run.series.frames.size())) {
+  for (std::size_t i : chosen) {
     frames.push_back(frame_of(run, i));
     values.push_back(values_of(frames.back(), field));
     largest = std::max(largest, largest_of(values.back()));
@@ -221,19 +293,75 @@ ReportPicture draw_development(const LoadedRun& loaded, const FieldSelection& fi
   const ShownUnit unit = shown_unit(field.name, largest);
   ContourFigure figure;
   figure.title = shown_name(field) + ": " + loaded.label;
+  std::vector<ValueRange> extents;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     values[i] = scaled(std::move(values[i]), unit.factor);
-    ContourPanel panel = panel_of(run, frames[i], values[i]);
+    extents.push_back(robust_extent(values[i]));
+    ContourPanel panel = panel_of(run, frames[i], std::move(values[i]));
     panel.title = time_text(frames[i].time);
     figure.panels.push_back(std::move(panel));
   }
-  std::vector<ValueRange> extents;
-  for (const auto& v : values) extents.push_back(robust_extent(v));
-  figure.scale = scale_of(field, unit, run.scene, range_of_instants(extents, usual_map(field)));
-  const std::string file = "development_" + file_name(loaded.run.name) + ".png";
-  save_contours(figure, folder / file);
-  return {file, shown_name(field) + " over time in run " + loaded.label,
-          fmt::format("How the {} develops in {}.", name_in_sentence(field), loaded.label)};
+  figure.scale = scale_of(field, unit, run.scene,
+                          shown.range ? shown.range : range_of_instants(extents, usual_map(field)));
+  return figure;
+}
+
+}  // namespace
+
+ReportPicture draw_development(const LoadedRun& loaded, const ReportField& shown, bool panels,
+                               const fs::path& folder) {
+  const ContourFigure figure = figure_of_frames(loaded, instants(loaded.run.series.frames.size()), shown);
+  const std::string stem = "development_" + file_name(loaded.label);
+  const std::string description = shown_name(shown.field) + " over time in run " + loaded.label;
+  const std::string caption =
+      fmt::format("How the {} develops in {}.", name_in_sentence(shown.field), loaded.label);
+  if (panels) return draw(figure, folder, stem, description, caption);
+  save_contours(figure, folder / (stem + ".png"));
+  return {stem + ".png", description, caption};
+}
+
+std::vector<html::Instant> draw_instants(const LoadedRun& loaded, const ReportField& shown, std::size_t most,
+                                         const fs::path& folder) {
+  constexpr std::size_t most_particles = 1'000'000;  // of all instants: they are drawn from memory
+  const std::size_t frames = loaded.run.series.frames.size();
+  const std::size_t particles = std::max<std::size_t>(loaded.last.points.size() / 3, 1);
+  const std::size_t count = std::min({most, frames, std::max<std::size_t>(most_particles / particles, 2)});
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(i * (frames - 1) / (count - 1));
+  const ContourFigure figure = figure_of_frames(loaded, chosen, shown);
+  std::vector<html::Instant> pictures;
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < count; ++i) {
+    pictures.push_back(
+        {fmt::format("frame_{}_{:03}.png", file_name(loaded.label), i + 1), figure.panels[i].title});
+    paths.push_back(folder / pictures.back().file);
+  }
+  save_each_panel(figure, instant_width, paths);
+  return pictures;
+}
+
+std::vector<html::Instant> draw_pair(const LoadedRun& a, const LoadedRun& b, const ReportField& shown,
+                                     const fs::path& folder) {
+  const FieldSelection& field = shown.field;
+  std::vector<std::vector<double>> values = {values_of(a.last, field), values_of(b.last, field)};
+  const ShownUnit unit = shown_unit(field.name, std::max(largest_of(values[0]), largest_of(values[1])));
+  for (std::vector<double>& v : values) v = scaled(std::move(v), unit.factor);
+  ContourFigure figure;
+  figure.title = shown_name(field);
+  figure.scale =
+      scale_of(field, unit, a.run.scene, shown.range ? shown.range : range_of_runs(values, usual_map(field)));
+  std::vector<html::Instant> pictures;
+  std::vector<fs::path> paths;
+  for (const LoadedRun* r : {&a, &b}) {
+    ContourPanel panel = panel_of(r->run, r->last, std::move(values[pictures.size()]));
+    panel.title = r->label;
+    panel.subtitle = panel_subtitle(r->run, r->last.time, r->label);
+    figure.panels.push_back(std::move(panel));
+    pictures.push_back({fmt::format("pair_{}_{}.png", file_name(b.label), pictures.size() + 1), r->label});
+    paths.push_back(folder / pictures.back().file);
+  }
+  save_each_panel(figure, instant_width, paths);
+  return pictures;
 }
 
 }  // namespace porosph

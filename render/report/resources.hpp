@@ -5,6 +5,7 @@
 
 namespace porosph::resources {
 
-extern const std::string_view report_style;  ///< report.css
+extern const std::string_view report_style;   ///< report.css
+extern const std::string_view report_script;  ///< report.js
 
 }  // namespace porosph::resources

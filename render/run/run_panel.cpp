@@ -10,6 +10,7 @@
 #include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
 #include "render/run/soil_mesh.hpp"
+#include "render/run/stage_scene.hpp"
 #include "render/run/water_around.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/water/standing_water.hpp"
@@ -142,11 +143,12 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(run, frame);
   const bool knows_starts = has(frame, "Displacement");
-  const Case* scene = run.scene && knows_starts ? &*run.scene : nullptr;
+  const std::optional<Case> then = run.scene ? std::optional(scene_during(run, frame.time)) : std::nullopt;
+  const Case* scene = then && knows_starts ? &*then : nullptr;
   const std::vector<Point> positions = panel.particles.positions,
                            starts = knows_starts ? starts_of(frame) : positions;
   if (scene != nullptr) panel.particles.cells = drawn_cells(*scene, starts);
-  if (run.scene) panel.scenery = scenery_of(scene_at(*run.scene, frame.time));
+  if (then) panel.scenery = scenery_of(scene_at(*then, frame.time));
   if (run.scene && run.scene->water.mode == WaterMode::steady && has(frame, "PressureHead"))
     panel.scenery.water_table = water_table(panel.particles.positions, values_of(frame, {"PressureHead", ""}),
                                             run.scene->particles.spacing);

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
-#include "solver/analysis/derived_fields.hpp"
-#include "solver/boundary/visibility.hpp"
-#include "solver/case/shapes.hpp"
-#include "solver/geometry/region.hpp"
-#include "solver/sph/kernel/linear_weights.hpp"
+#include "solver/analysis/soil_values.hpp"
 
 namespace porosph {
 namespace {
@@ -28,181 +23,6 @@ double distance_to_line(const Point& p, const std::vector<Point>& line) {
   return least;
 }
 
-/// The frame of some of its particles.
-Frame part_of(const Frame& frame, const std::vector<std::size_t>& particles) {
-  Frame part{.step = frame.step, .time = frame.time, .points = {}, .fields = {}};
-  for (const std::size_t i : particles)
-    part.points.insert(part.points.end(), frame.points.begin() + static_cast<long>(3 * i),
-                       frame.points.begin() + static_cast<long>(3 * i + 3));
-  for (const FrameField& field : frame.fields) {
-    const auto width = static_cast<std::size_t>(field.width());
-    std::vector<double> values;
-    values.reserve(particles.size() * width);
-    std::visit(
-        [&](const auto& all) {
-          for (const std::size_t i : particles)
-            for (std::size_t c = 0; c < width; ++c) values.push_back(static_cast<double>(all[i * width + c]));
-        },
-        field.values);
-    part.fields.push_back({field.name, field.components, std::move(values)});
-  }
-  return part;
-}
-
-/// Particles near a line, and who is near a point.
-class Neighbourhood {
- public:
-  Neighbourhood(std::vector<Point> points, double radius) : points_(std::move(points)), radius_(radius) {
-    for (const Point& p : points_) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
-    columns_ = bin(high_.x() - low_.x()) + 1;
-    rows_ = bin(high_.y() - low_.y()) + 1;
-    bins_.resize(columns_ * rows_);
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      bins_[bin(points_[i].y() - low_.y()) * columns_ + bin(points_[i].x() - low_.x())].push_back(i);
-  }
-
-  std::vector<std::size_t> near(const Point& p) const {
-    std::vector<std::size_t> found;
-    const auto from = [&](double d) { return bin(std::max(0.0, d - radius_)); };
-    const auto to = [&](double d, std::size_t count) {
-      return d + radius_ < 0 ? 0 : std::min(count, bin(d + radius_) + 1);
-    };
-    const double x = p.x() - low_.x(), y = p.y() - low_.y();
-    for (std::size_t row = from(y); row < to(y, rows_); ++row)
-      for (std::size_t column = from(x); column < to(x, columns_); ++column)
-        for (const std::size_t i : bins_[row * columns_ + column])
-          if ((points_[i] - p).squaredNorm() < radius_ * radius_) found.push_back(i);
-    return found;
-  }
-
- private:
-  std::size_t bin(double distance) const { return static_cast<std::size_t>(distance / radius_); }
-
-  std::vector<Point> points_;
-  double radius_;
-  Point low_ = Point::Constant(never), high_ = Point::Constant(-never);
-  std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::size_t>> bins_;
-};
-
-constexpr int outside = -2;
-
-/// What is at a point of the line.
-struct Hit {
-  int soil = outside;
-  Point start = Point::Zero();
-  std::vector<std::size_t> particles;  ///< that it is interpolated from
-  bool in_soil() const { return soil != outside; }
-};
-
-class Cutter {
- public:
-  Cutter(Frame near, const Case* scene, double smoothing_length, double spacing)
-      : frame_(std::move(near)), scene_(scene), h_(smoothing_length), spacing_(spacing) {
-    for (std::size_t i = 0; i < frame_.points.size(); i += 3)
-      particles_.position.push_back({frame_.points[i], frame_.points[i + 1]});
-    neighbourhood_.emplace(particles_.position, 2 * h_);
-    if (has_field(frame_, "Displacement")) particles_.start = starts_of(frame_);
-    knows_outlines_ = scene != nullptr && !particles_.start.empty();
-    if (!knows_outlines_) return;
-    for (const SoilCase& soil : scene->soils) regions_.emplace_back(soil.polygon, soil.holes);
-    if (has_field(frame_, "SoilId")) soils_ = values_of(frame_, {"SoilId", ""});
-    visibility_ = Visibility(scene->soils, {}, particles_, 2 * h_, spacing_);
-  }
-
-  /// `slack`: how far from the outline a point still counts as inside [m].
-  Hit at(const Point& p, double slack) const {
-    std::vector<std::size_t> near = neighbourhood_->near(p);
-    if (near.empty()) return {};
-    const auto distance_to = [&](std::size_t i) { return (particles_.position[i] - p).squaredNorm(); };
-    const std::size_t nearest = *std::ranges::min_element(near, {}, distance_to);
-    const double reach = (knows_outlines_ ? 1 : 0.75) * spacing_;
-    if (distance_to(nearest) > reach * reach) return {};
-    if (!knows_outlines_) return {-1, start_of(p, near), std::move(near)};
-    std::erase_if(near, [&](std::size_t i) { return !sees(nearest, i); });
-    const std::vector<std::size_t> of_nearest = of_soil(near, soil_of(nearest));
-    const Point start = start_of(p, of_nearest);
-    for (std::size_t k = 0; k < regions_.size(); ++k) {
-      const bool inside = slack > 0 ? distance(start, scene_->soils[k]) < slack : regions_[k].contains(start);
-      if (!inside) continue;
-      std::vector<std::size_t> own = of_soil(near, static_cast<int>(k));
-      if (own.empty()) continue;
-      return {static_cast<int>(k), start, std::move(own)};
-    }
-    return {};
-  }
-
-  /// Appends the values at a point in the soil.
-  void append(SectionPiece& piece, const Hit& hit, const Point& p, double along, const Point& tangent) const {
-    const std::vector<double> weights = weights_at(p, hit.particles);
-    if (piece.along.empty()) {
-      piece.soil = hit.soil;
-      piece.values.step = frame_.step, piece.values.time = frame_.time;
-      for (const FrameField& f : frame_.fields)
-        piece.values.fields.push_back({f.name, f.components, std::vector<double>{}});
-    }
-    piece.along.push_back(along);
-    piece.tangent.push_back(tangent);
-    piece.starts.push_back(hit.start);
-    piece.values.points.insert(piece.values.points.end(), {p.x(), p.y(), 0});
-    for (std::size_t f = 0; f < frame_.fields.size(); ++f) {
-      const auto& from = std::get<std::vector<double>>(frame_.fields[f].values);
-      auto& to = std::get<std::vector<double>>(piece.values.fields[f].values);
-      const auto width = static_cast<std::size_t>(frame_.fields[f].width());
-      for (std::size_t c = 0; c < width; ++c) {
-        double sum = 0;
-        for (std::size_t k = 0; k < weights.size(); ++k)
-          sum += weights[k] * from[hit.particles[k] * width + c];
-        to.push_back(sum);
-      }
-    }
-  }
-
-  /// Points this near to an outline may belong to a line along it: displacements have errors of second order.
-  double slack() const { return knows_outlines_ ? 0.02 * spacing_ : 0; }
-
- private:
-  int soil_of(std::size_t i) const { return soils_.empty() ? -1 : static_cast<int>(soils_[i]); }
-
-  std::vector<std::size_t> of_soil(const std::vector<std::size_t>& particles, int soil) const {
-    if (soils_.empty()) return particles;
-    std::vector<std::size_t> own;
-    for (const std::size_t i : particles)
-      if (soil_of(i) == soil) own.push_back(i);
-    return own;
-  }
-
-  bool sees(std::size_t a, std::size_t b) const {
-    return visibility_.everywhere() || a == b ||
-           visibility_.sees(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), particles_);
-  }
-
-  std::vector<double> weights_at(const Point& p, const std::vector<std::size_t>& particles) const {
-    std::vector<Point> near;
-    for (const std::size_t i : particles) near.push_back(particles_.position[i]);
-    return linear_weights(p, near, std::vector<double>(near.size(), 1.0), h_);
-  }
-
-  Point start_of(const Point& p, const std::vector<std::size_t>& particles) const {
-    if (particles_.start.empty()) return p;
-    const std::vector<double> weights = weights_at(p, particles);
-    Point displacement = Point::Zero();
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      displacement += weights[k] * particles_.displacement(particles[k]);
-    return p - displacement;
-  }
-
-  Frame frame_;
-  const Case* scene_;
-  double h_, spacing_;
-  Particles particles_;  ///< places only
-  std::optional<Neighbourhood> neighbourhood_;
-  bool knows_outlines_ = false;
-  std::vector<Region> regions_;
-  std::vector<double> soils_;
-  Visibility visibility_;
-};
-
 /// One straight stretch of the line.
 struct Segment {
   Point from, tangent;
@@ -213,19 +33,19 @@ struct Segment {
 /// A point of a segment and what is there. `loose`: near an outline along which the line may run.
 struct Sample {
   double s = 0;
-  Hit hit;
+  InSoil hit;
   bool loose = false;
 };
 
-std::vector<Sample> samples_of(const Cutter& cutter, const Segment& segment, int intervals) {
+std::vector<Sample> samples_of(const SoilValues& values, const Segment& segment, int intervals) {
   std::vector<Sample> samples;
-  std::vector<Hit> rims;
+  std::vector<InSoil> rims;
   for (int i = 0; i <= intervals; ++i) {
     const double s = segment.length * i / intervals;
-    samples.push_back({s, cutter.at(segment.at(s), 0)});
-    rims.push_back(samples.back().hit.in_soil() || cutter.slack() == 0
-                       ? Hit{}
-                       : cutter.at(segment.at(s), cutter.slack()));
+    samples.push_back({s, values.at(segment.at(s), 0)});
+    rims.push_back(samples.back().hit.in_soil() || values.slack() == 0
+                       ? InSoil{}
+                       : values.at(segment.at(s), values.slack()));
   }
   const auto is_rim = [&](std::size_t i) { return i < rims.size() && rims[i].in_soil(); };
   const auto is_near = [&](std::size_t i) {
@@ -242,7 +62,8 @@ std::vector<Sample> samples_of(const Cutter& cutter, const Segment& segment, int
 
 class PieceBuilder {
  public:
-  PieceBuilder(const Cutter& cutter, std::vector<SectionPiece>& pieces) : cutter_(cutter), pieces_(pieces) {}
+  PieceBuilder(const SoilValues& values, std::vector<SectionPiece>& pieces)
+      : values_(values), pieces_(pieces) {}
 
   void add(const Segment& segment, const std::vector<Sample>& samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -252,7 +73,7 @@ class PieceBuilder {
   }
 
  private:
-  void put(const Segment& segment, double s, const Hit& hit) {
+  void put(const Segment& segment, double s, const InSoil& hit) {
     if (!hit.in_soil()) {
       open_ = false;
       return;
@@ -262,19 +83,26 @@ class PieceBuilder {
     SectionPiece& piece = pieces_.back();
     const double along = segment.begin + s;
     if (!piece.along.empty() && along <= piece.along.back()) return;  // a corner of the line, met twice
-    cutter_.append(piece, hit, segment.at(s), along, segment.tangent);
+    if (piece.along.empty()) {
+      piece.soil = hit.soil;
+      piece.values = values_.no_points();
+    }
+    piece.along.push_back(along);
+    piece.tangent.push_back(segment.tangent);
+    piece.starts.push_back(hit.start);
+    values_.append(piece.values, hit, segment.at(s));
   }
 
   /// Finds the boundaries between two neighbouring points by bisection.
   void cross(const Segment& segment, const Sample& a, const Sample& b) {
     constexpr int most_boundaries = 8, halvings = 46;
-    const double slack = a.loose || b.loose ? cutter_.slack() : 0;
+    const double slack = a.loose || b.loose ? values_.slack() : 0;
     Sample left = a;
     for (int n = 0; n < most_boundaries && left.hit.soil != b.hit.soil; ++n) {
       Sample low = left, high = b;
       for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (low.s + high.s);
-        Hit hit = cutter_.at(segment.at(middle), slack);
+        InSoil hit = values_.at(segment.at(middle), slack);
         (hit.soil == left.hit.soil ? low : high) = {middle, std::move(hit)};
       }
       put(segment, low.s, low.hit);
@@ -284,7 +112,7 @@ class PieceBuilder {
     }
   }
 
-  const Cutter& cutter_;
+  const SoilValues& values_;
   std::vector<SectionPiece>& pieces_;
   bool open_ = false;
 };
@@ -301,27 +129,6 @@ std::vector<Segment> segments_of(const std::vector<Point>& line) {
   return segments;
 }
 
-double spacing_of(const Frame& frame, const Case* scene) {
-  if (scene != nullptr) return scene->particles.spacing;
-  if (has_field(frame, "Mass") && has_field(frame, "Density")) return std::sqrt(volumes_of(frame).front());
-  throw std::runtime_error(
-      "a section needs the spacing of the particles: the series has no case.toml beside it, and no Mass and "
-      "Density");
-}
-
-double smoothing_length_of(const Frame& frame, const Case* scene, double spacing) {
-  if (scene != nullptr) return scene->smoothing_length();
-  return has_field(frame, "SmoothingLength") ? values_of(frame, {"SmoothingLength", ""}).front()
-                                             : 1.2 * spacing;
-}
-
-/// Strains are derivatives over all particles around.
-bool needs_strain(const Frame& frame, const std::vector<FieldSelection>& fields) {
-  return !has_field(frame, "Strain") && std::ranges::any_of(fields, [&](const FieldSelection& f) {
-    return !has_field(frame, f.name) && f.name.ends_with("Strain");
-  });
-}
-
 }  // namespace
 
 std::vector<SectionPiece> cut(const Frame& frame, const Case* scene, const std::vector<Point>& line,
@@ -329,26 +136,15 @@ std::vector<SectionPiece> cut(const Frame& frame, const Case* scene, const std::
   const std::vector<Segment> segments = segments_of(line);
   if (segments.empty() || points < 2)
     throw std::invalid_argument("a section needs a line of some length, and two points at least");
-  for (const FieldSelection& field : fields)
-    if (!can_show(frame, field.name)) values_of(frame, field);  // throws, and says what there is
-  const double spacing = spacing_of(frame, scene), h = smoothing_length_of(frame, scene, spacing);
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < frame.points.size() / 3; ++i)
-    if (distance_to_line({frame.points[3 * i], frame.points[3 * i + 1]}, line) < 2.1 * h) near.push_back(i);
-  if (near.empty()) return {};
-  Frame part = part_of(frame, near);
-  if (needs_strain(frame, fields))
-    if (const auto strain = derived_field(frame, "Strain")) {
-      Frame only{.step = 0, .time = 0, .points = frame.points, .fields = {*strain}};
-      part.fields.push_back(std::move(part_of(only, near).fields.front()));
-    }
-  const Cutter cutter(std::move(part), scene, h, spacing);
+  const auto values = soil_values(
+      frame, scene, fields, [&](const Point& p, double h) { return distance_to_line(p, line) < 2.1 * h; });
+  if (!values) return {};
   const double length = segments.back().begin + segments.back().length;
   std::vector<SectionPiece> pieces;
-  PieceBuilder builder(cutter, pieces);
+  PieceBuilder builder(*values, pieces);
   for (const Segment& segment : segments) {
     const double share = (points - 1) * segment.length / length;
-    builder.add(segment, samples_of(cutter, segment, std::max(1, static_cast<int>(std::lround(share)))));
+    builder.add(segment, samples_of(*values, segment, std::max(1, static_cast<int>(std::lround(share)))));
   }
   return pieces;
 }
@@ -368,6 +164,20 @@ SectionForce force_through(const std::vector<SectionPiece>& pieces, const std::s
       }
   }
   return force;
+}
+
+double flow_through(const std::vector<SectionPiece>& pieces) {
+  double flow = 0;
+  for (const SectionPiece& piece : pieces) {
+    const auto x = values_of(piece.values, {"DarcyVelocity", "X"}),
+               y = values_of(piece.values, {"DarcyVelocity", "Y"});
+    for (std::size_t i = 0; i + 1 < piece.along.size(); ++i)
+      for (const std::size_t k : {i, i + 1}) {
+        const Point t = piece.tangent[i + 1], n(-t.y(), t.x());
+        flow += 0.5 * (piece.along[i + 1] - piece.along[i]) * Point(x[k], y[k]).dot(n);
+      }
+  }
+  return flow;
 }
 
 }  // namespace porosph

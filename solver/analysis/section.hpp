@@ -42,4 +42,8 @@ struct SectionForce {
 /// Of `stress`, EffectiveStress or TotalStress.
 SectionForce force_through(const std::vector<SectionPiece>& pieces, const std::string& stress);
 
+/// The integral of the DarcyVelocity over a section, per metre of thickness [m2/s]: positive to the left of
+/// the line.
+double flow_through(const std::vector<SectionPiece>& pieces);
+
 }  // namespace porosph

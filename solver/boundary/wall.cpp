@@ -56,13 +56,13 @@ bool met_at(const Vec2& end, const Wall& self, std::span<const Wall> walls) {
 
 }  // namespace
 
-bool Wall::faces(const Vec2& p, double range) const {
+bool Wall::faces(const Vec2& p, double range, double beyond) const {
   const double away = distance(p);
   if (away < on_line * range || away >= range) return false;
   const Vec2 line = to - from;
   const double length = line.norm(), along = (p - from).dot(line) / length, slack = on_line * range;
-  return along >= (continued_at_from ? -range : -slack) &&
-         along < (continued_at_to ? length + range : length - slack);
+  return along >= (continued_at_from ? -range : -slack - beyond) &&
+         along < (continued_at_to ? length + range : length - slack + beyond);
 }
 
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
@@ -92,11 +92,11 @@ std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t parti
 }
 
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
-                   std::vector<Vec2>& points, std::vector<Image>& images) {
+                   std::vector<Vec2>& points, std::vector<Image>& images, double beyond) {
   for (std::size_t w = first; w < last; ++w) {
     const std::size_t present = points.size();
     for (std::size_t i = 0; i < present; ++i) {
-      if (!walls[w].faces(points[i], range)) continue;
+      if (!walls[w].faces(points[i], range, beyond)) continue;
       images.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
       points.push_back(walls[w].mirrored(points[i]));
     }

@@ -26,7 +26,8 @@ struct Wall {
   Vec2 mirrored(const Vec2& p) const { return p - 2 * distance(p) * normal; }
   Mat2 reflection() const { return reflection_in(normal); }
   const Support& support() const { return support_of(kind); }
-  bool faces(const Vec2& p, double range) const;  ///< p lies within `range` in front of the segment
+  /// p lies within `range` [m] in front of the segment, or of what continues it by `beyond` [m] at each end.
+  bool faces(const Vec2& p, double range, double beyond = 0) const;
 };
 
 /// The image of a point behind a wall. The parent may itself be an image, of an earlier wall (corners).
@@ -44,8 +45,9 @@ std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t parti
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
                              double range, const std::function<bool(const Vec2&)>& in_soil = {});
 
-/// Appends to `points` the images, in walls `first` to `last - 1`, of all points within `range` [m] of them.
+/// Appends to `points` the images, in walls `first` to `last - 1`, of all points that face them within
+/// `range` and `beyond` [m].
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
-                   std::vector<Vec2>& points, std::vector<Image>& images);
+                   std::vector<Vec2>& points, std::vector<Image>& images, double beyond = 0);
 
 }  // namespace porosph

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,7 @@ struct SoilCase {
   Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
   double porosity = -1;                ///< n; negative: none given, 0.4 [-]
   RetentionCase retention = {};
+  int id = -1;  ///< number of the soil in the file, which pieces that stages cut it into share; -1: its place
 };
 
 /// Still water. A stretch is level from x_from to x_to; where there is none the soil is dry.
@@ -106,6 +108,7 @@ enum class BoundaryKind {
 struct BoundaryCase {
   BoundaryKind kind = BoundaryKind::fixed;
   Point from = Point::Zero(), to = Point::Zero();  ///< straight segment; soil on one side of it [m]
+  std::string name = {};                           ///< by which stages call it; may be empty
 };
 
 /// Traction on a straight free stretch of the outline as it is at the start: total stress on the soil.
@@ -149,6 +152,7 @@ struct LoadingCase {
   double damping = 0;  ///< xi of eq. (34) [-]
   bool adaptive_damping = false;  ///< c_d from the lowest vibration of the motion, in place of xi / dt
   double damping_until = never;   ///< time at which the damping ends [s]
+  double horizontal = 0;          ///< acceleration to the right over g, beside gravity (pseudo-static) [-]
 };
 
 struct TimeCase {
@@ -161,6 +165,7 @@ struct TimeCase {
 struct StopCase {
   double unbalanced_force_ratio = 0;  ///< equilibrium when the ratio has fallen below this; 0: never [-]
   bool on_separation = true;          ///< unstable when particles have left the body
+  double displacement = never;        ///< the soil has failed when a particle has moved further [m]
 };
 
 /// What a run is held against by itself.
@@ -198,6 +203,24 @@ enum class Reference {
   conventional_column,  ///< what the conventional form makes of it instead
 };
 
+/// How the stress of soil begins that a stage places.
+enum class FillStress { none, k0 };
+
+/// What changes from one moment of a run on.
+struct StageCase {
+  std::string name;
+  double duration = 0;                   ///< at most; it ends before where it comes to rest [s]
+  std::vector<std::string> excavate;     ///< soils that are removed
+  std::vector<Polygon> excavate_within;  ///< outlines within which all soil is removed [m]
+  std::vector<std::string> fill;         ///< soils that are placed; absent before
+  FillStress fill_stress = FillStress::none;
+  std::vector<std::string> load_on, load_off;        ///< loads
+  double ramp = 0;                                   ///< in which those grow and fall [s]
+  std::vector<std::string> support_on, support_off;  ///< boundaries
+  std::vector<std::string> set;                      ///< "key = value", as overrides
+  bool reset_displacements = false;                  ///< displacements count from here
+};
+
 struct Case {
   std::string title;
   ParticlesCase particles;
@@ -213,6 +236,12 @@ struct Case {
   OutputCase output;
   std::vector<ProbeCase> probes;
   Reference reference = Reference::none;
+  std::vector<StageCase> stages;  ///< that follow after what stands above has come to its end
+  std::string start_from;         ///< folder of another run, whose last state this one begins with; or empty
+
+  /// The case with the soils and boundaries of all stages, of which this one is a stage: particles are placed
+  /// as that says. Null where there are no stages. Not part of the file.
+  std::shared_ptr<const Case> plan;
 
   double smoothing_length() const { return particles.smoothing_ratio * particles.spacing; }  ///< h [m]
 };

@@ -24,6 +24,7 @@ class Collector : public Fields {
   void text(const Key& key, std::string&) override { add(key); }
   void name(const Key& key, std::string&) override { add(key); }
   void words(const Key& key, std::vector<std::string>&, std::span<const std::string>) override { add(key); }
+  void texts(const Key& key, std::vector<std::string>&) override { add(key); }
   void point(const Key& key, Point&) override { add(key); }
   void pairs(const Key& key, std::vector<Point>&) override { add(key); }
   void polygon(const Key& key, Polygon&) override { add(key); }

@@ -2,13 +2,17 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "solver/case/case_file.hpp"
+#include "solver/case/change_settings.hpp"
 #include "solver/case/check_case.hpp"
+#include "solver/case/check_stages.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/nearest.hpp"
 #include "solver/case/overrides.hpp"
 #include "solver/case/report.hpp"
+#include "solver/case/units.hpp"
 #include "solver/printable.hpp"
 
 namespace porosph {
@@ -55,7 +59,7 @@ class Reader : public Fields {
                  bool& is_word) override {
     const toml::node* node = key.is_used ? table_->get(key.name) : nullptr;
     const auto given = node ? node->value<std::string>() : std::nullopt;
-    if (!given) return is_word = is_word && !node, number(key, value, range);
+    if (!given || begins_as_number(*given)) return is_word = is_word && !node, number(key, value, range);
     known_.emplace_back(key.name);
     if (is_word = *given == word; !is_word)
       fail(key, path(key),
@@ -133,6 +137,22 @@ class Reader : public Fields {
       } else {
         values.push_back(*word);
       }
+    }
+  }
+
+  void texts(const Key& key, std::vector<std::string>& values) override {
+    const toml::array* items = array(key, "a list of text");
+    if (!items) return;
+    values.clear();
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", path(key), i);
+      const auto word = items->get(i)->value<std::string>();
+      if (!items->get(i)->is_string() || !word)
+        fail(key, at, "must be text");
+      else if (const std::string control = control_character(*word); !control.empty())
+        fail(key, at, fmt::format("must not hold control characters, but has {}", control));
+      else
+        values.push_back(*word);
     }
   }
 
@@ -265,14 +285,21 @@ class Reader : public Fields {
     return given.has_value();
   }
 
+  // A number in `unit`, or text with a number and a unit of its own that is converted.
   std::optional<double> number_of(const Key& key, const std::string& at, const toml::node& node) {
-    const auto x = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!x)
-      fail(key, at, fmt::format("must be a number{}{}", key.unit.empty() ? "" : " in", unit(key)));
-    else if (!std::isfinite(*x))
+    return number_of(key, at, node, key.unit);
+  }
+  std::optional<double> number_of(const Key& key, const std::string& at, const toml::node& node,
+                                  std::string_view unit) {
+    const auto text = node.value_exact<std::string>();
+    const Measure given =
+        node.is_number() ? Measure{*node.value<double>(), ""} : read_measure(text.value_or(""), unit);
+    if (!given.fault.empty())
+      fail(key, at, given.fault);
+    else if (!std::isfinite(given.value))
       fail(key, at, "must be finite");
     else
-      return x;
+      return given.value;
     return std::nullopt;
   }
 
@@ -284,11 +311,12 @@ class Reader : public Fields {
     }
     for (int i = 0; i < 2; ++i) {
       const std::string here = fmt::format("{}[{}]", at, i);
-      const auto x = number_of(key, here, (*xy)[static_cast<std::size_t>(i)]);
+      const std::string_view unit = unit_of_component(key.unit, i);
+      const auto x = number_of(key, here, (*xy)[static_cast<std::size_t>(i)], unit);
       if (!x) return false;
       const Range range = between(-farthest, farthest);
       if (!range.contains(*x))
-        return fail(key, here, fmt::format("must be {}{}", range.text(), unit(key))), false;
+        return fail(key, here, fmt::format("must be {} {}", range.text(), unit)), false;
       value[i] = *x;
     }
     return true;
@@ -392,13 +420,50 @@ Case parse_case(std::string_view text, std::string_view file_name,
   Reader reader(root, report);
   reader.read(scene);
   for (const CaseIssue& issue : check_settings(scene)) report.add(issue.key, issue.message);
-  if (reader.lengths_are_right())
+  if (reader.lengths_are_right() && scene.stages.empty())
     for (const CaseIssue& issue : check_geometry(scene)) report.add(issue.key, issue.message);
+  if (!scene.stages.empty() && report.size() == 0)
+    for (const CaseIssue& issue : check_stages(scene)) report.add(issue.key, issue.message);
 
   std::string errors = report.text();
   for (const std::string& error : wrong_overrides) errors += (errors.empty() ? "" : "\n") + error;
   if (!errors.empty()) throw CaseError(errors);
   return scene;
+}
+
+/// Of the ways to give the water its level only the one that is set now counts.
+static void leave_one_level(toml::table& root, const std::vector<Override>& applied) {
+  static const std::vector<std::string> ways = {"level", "stretches", "level_over_time"};
+  toml::table* water = root.get_as<toml::table>("water");
+  for (const Override& o : applied)
+    for (const std::string& way : ways)
+      if (water != nullptr && o.key == "water." + way)
+        for (const std::string& other : ways)
+          if (other != way) water->erase(other);
+}
+
+Case with_settings(const Case& scene, const std::vector<std::string>& settings,
+                   std::vector<SettingFault>& faults) {
+  toml::table root = toml::parse(write_case(scene));
+  std::vector<std::string> wrong;
+  const std::vector<Override> applied = apply_overrides(root, settings, wrong);
+  leave_one_level(root, applied);
+  Case changed;
+  Report report("the case with this stage", root, applied);
+  Reader(root, report).read(changed);
+  for (const CaseIssue& issue : check_settings(changed)) report.add(issue.key, issue.message);
+  std::istringstream lines(report.text());
+  for (std::string line; std::getline(lines, line);) wrong.push_back(line);
+  for (const std::string& line :
+       wrong) {  // each begins with the setting that it is about, if it is about one
+    SettingFault fault{-1, line};
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const std::string head = fmt::format("override '{}': ", printable(settings[i]));
+      if (line.starts_with(head)) fault = {static_cast<int>(i), line.substr(head.size())};
+    }
+    faults.push_back(std::move(fault));
+  }
+  return changed;
 }
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

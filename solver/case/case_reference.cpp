@@ -1,5 +1,8 @@
+#include <set>
+
 #include "solver/case/case_file.hpp"
 #include "solver/case/fields.hpp"
+#include "solver/case/units.hpp"
 
 namespace porosph {
 namespace {
@@ -14,6 +17,7 @@ std::string names(std::span<const std::string_view> words) {
 class Documenter : public Fields {
  public:
   std::string finished() { return head_ + table_ + inner_; }
+  const std::set<std::string>& units() const { return units_; }
   explicit Documenter(std::string head) : head_(std::move(head)) {}
 
   void number(const Key& key, double& value, const Range& range) override {
@@ -45,6 +49,7 @@ class Documenter : public Fields {
     row(key, "list of text", fmt::format("{}", fmt::join(values, ", ")),
         fmt::format("`{}`", fmt::join(allowed, "`, `")));
   }
+  void texts(const Key& key, std::vector<std::string>&) override { row(key, "list of text", "[]", "any"); }
   void point(const Key& key, Point& value) override {
     row(key, "point", fmt::format("[{}, {}]", value.x(), value.y()), "[x, y]");
   }
@@ -73,6 +78,7 @@ class Documenter : public Fields {
   void row(const Key& key, std::string_view type, const std::string& value, const std::string& allowed) {
     if (table_.empty())
       table_ = "\n| key | type | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n";
+    for (int i = 0; i < 2; ++i) units_.emplace(unit_of_component(key.unit, i));
     std::string otherwise = key.fallback.empty() ? code(value) : key.fallback;
     if (key.is_required) otherwise = "required";
     const std::string condition =
@@ -90,10 +96,21 @@ class Documenter : public Fields {
     contents();
     std::swap(part, *this);
     inner_ += part.finished();
+    units_.merge(part.units_);
   }
 
   std::string path_, head_, table_, inner_;
+  std::set<std::string> units_;  // of all keys
 };
+
+/// What text may give in place of a number in each of these units.
+std::string units_table(const std::set<std::string>& units) {
+  std::string table =
+      "\n### Units in text\n\n| unit of the key | units that its value may carry |\n|---|---|\n";
+  for (const std::string& unit : units)
+    if (unit != "-") table += fmt::format("| {} | {} |\n", unit.empty() ? "none" : unit, usual_units(unit));
+  return table;
+}
 
 }  // namespace
 
@@ -101,7 +118,8 @@ std::string describe_case_format() {
   Documenter documenter("### Top level\n");
   Case defaults;
   declare(documenter, defaults);
-  return documenter.finished();
+  const std::string tables = documenter.finished();
+  return tables + units_table(documenter.units());
 }
 
 }  // namespace porosph

@@ -34,10 +34,13 @@ class Writer : public Fields {
     line(key, is_word ? fmt::format("\"{}\"", word) : value ? "true" : "false");
   }
   void text(const Key& key, std::string& value) override { line(key, toml_text(value)); }
-  void name(const Key& key, std::string& value) override { line(key, toml_text(value)); }
+  void name(const Key& key, std::string& value) override {
+    if (!value.empty()) line(key, toml_text(value));  // one that may be left out
+  }
   void words(const Key& key, std::vector<std::string>& values, std::span<const std::string>) override {
     line(key, toml_text(values));
   }
+  void texts(const Key& key, std::vector<std::string>& values) override { line(key, toml_text(values)); }
   void point(const Key& key, Point& value) override {
     if (value.allFinite())
       line(key, toml_text(value));

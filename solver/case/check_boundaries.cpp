@@ -58,6 +58,8 @@ Side sides(const Case& c, const BoundaryCase& b, const Point& at, double toleran
   return side;
 }
 
+constexpr const char* beside_no_soil = "does not lie on the outline of any soil";
+
 // Walks along a boundary: soil must lie on one side of it, the same all along, and somewhere.
 std::string fault_along(const Case& c, const BoundaryCase& b, double tolerance) {
   const double length = (b.to - b.from).norm();
@@ -73,7 +75,7 @@ std::string fault_along(const Case& c, const BoundaryCase& b, double tolerance) 
     all.right |= here.right;
   }
   if (all.left && all.right) return "has soil on its left and, further along, on its right: split it";
-  return all.left || all.right ? "" : "does not lie on the outline of any soil";
+  return all.left || all.right ? "" : beside_no_soil;
 }
 
 // The angle of the soil in the corner of two boundaries, where they are not in one line [degrees]; 180 where
@@ -160,6 +162,10 @@ std::vector<CaseIssue> unsupported(const Case& c, double tolerance) {
 }
 
 }  // namespace
+
+bool lies_on_soil(const Case& c, const BoundaryCase& b) {
+  return fault_along(c, b, 1e-3 * c.particles.spacing) != beside_no_soil;
+}
 
 std::vector<CaseIssue> check_boundaries(const Case& c) {
   const double tolerance = 1e-3 * c.particles.spacing;

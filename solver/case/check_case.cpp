@@ -12,6 +12,7 @@
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
+#include "solver/case/stages.hpp"
 
 namespace porosph {
 namespace {
@@ -200,6 +201,7 @@ std::string column_fault(const Case& c) {
   const auto [low, high] = box_of(c.soils[0]);
   if (!is_upright_rectangle(c.soils[0])) return "needs a soil that is an upright rectangle";
   if (!c.loading.gravity_applied) return "needs gravity";
+  if (c.loading.horizontal != 0) return "needs gravity that is upright";
   if (c.water.flows()) return "needs water that stands still";
   if (c.water.present() && (c.water.stretches.size() > 1 || c.water.stretches[0].x_from > low.x() ||
                             c.water.stretches[0].x_to < high.x()))
@@ -219,16 +221,24 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   check_names(c.soils, "soil", issues);
   check_names(c.probes, "probe", issues);
   check_names(c.loads, "load", issues);
-  const double frames = c.output.interval > 0 ? c.time.end / c.output.interval : 0;
+  const double end = latest_end(c);
+  const double frames = c.output.interval > 0 ? end / c.output.interval : 0;
   if (frames > most_frames)
     issues.push_back(
         {"output.interval", fmt::format("makes {:.3g} frames; at most {:.0e}", frames, most_frames)});
   for (std::size_t i = 0; i < c.output.times.size(); ++i)
-    if (c.output.times[i] > c.time.end)
-      issues.push_back({at("output.times", i), fmt::format("must be <= time.end = {} s", c.time.end)});
+    if (c.output.times[i] > end)
+      issues.push_back({at("output.times", i),
+                        c.stages.empty() ? fmt::format("must be <= time.end = {} s", end)
+                                         : fmt::format("must be <= {} s, when the last stage ends", end)});
   for (std::size_t i = 0; i < c.output.fields.size(); ++i)
     if (c.output.fields[i] == "ExcessStress" && c.reference == Reference::none)
       issues.push_back({at("output.fields", i), "is the excess over the exact solution: needs 'reference'"});
+  if (!c.start_from.empty() && c.reference != Reference::none)
+    issues.push_back(
+        {"start_from", "does not go with 'reference', which is for a case that starts by itself"});
+  if (!c.start_from.empty() && c.water.mode == WaterMode::coupled)
+    issues.push_back({"start_from", "does not go with water.mode = \"coupled\""});
   const Issues of_flow = check_flow_settings(c);
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   if (!c.check.finite_elements_auto && c.check.finite_elements)

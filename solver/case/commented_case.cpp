@@ -60,6 +60,7 @@ class Explainer : public Fields {
              std::span<const std::string> allowed) override {
     line(key, toml_text(values), fmt::format("{}", fmt::join(allowed, ", ")));
   }
+  void texts(const Key& key, std::vector<std::string>& values) override { line(key, toml_text(values), ""); }
   void point(const Key& key, Point& value) override {
     line(key, value.allFinite() ? toml_text(value) : "", "[x, y]");
   }

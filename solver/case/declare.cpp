@@ -45,6 +45,12 @@ void declare(Fields& f, Case& c) {
           "Exact solution that the final state is compared with. `column`: one soil under level ground and "
           "level water between two rollers."),
       c.reference, references);
+  f.text(
+      Key("start_from", "",
+          "Folder of a run whose last state this one begins with: soils of the same name, drawn and filled "
+          "with particles in the same way, keep their stress, displacement and what they remember.")
+          .otherwise("none"),
+      c.start_from);
   f.table(Key("particles", "", "How particles fill the soils."), c.particles);
   f.tables(Key("soil", "", "A soil: where it is and what it is.").required(), c.soils);
   f.table(
@@ -75,6 +81,11 @@ void declare(Fields& f, Case& c) {
   f.table(Key("check", "", "What the result is held against by itself."), c.check);
   f.table(Key("output", "", "What is written, and when."), c.output);
   f.tables(Key("probe", "", "A point of the soil whose history is recorded."), c.probes);
+  f.tables(
+      Key("stage", "",
+          "What changes next, once the run has come to rest or to its end as the tables above say: stages "
+          "follow each other in the order of the file. See docs/stages.md."),
+      c.stages);
 }
 
 void declare(Fields& f, ParticlesCase& c) {
@@ -110,6 +121,7 @@ void declare(Fields& f, BoundaryCase& c) {
            boundary_kinds);
   f.point(Key("from", "m", "One end.").required(), c.from);
   f.point(Key("to", "m", "The other end.").required(), c.to);
+  f.name(Key("name", "", "By which [[stage]] calls it.").otherwise("none"), c.name);
 }
 
 void declare(Fields& f, LoadCase& c) {
@@ -151,6 +163,12 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
+  f.number(
+      Key("horizontal", "",
+          "Acceleration to the right over g that acts on the soil beside gravity: the coefficient k_h of a "
+          "pseudo-static earthquake.")
+          .only_if(c.gravity_applied, "gravity_applied = true"),
+      c.horizontal, between(-10, 10));
 }
 
 void declare(Fields& f, TimeCase& c) {
@@ -171,6 +189,10 @@ void declare(Fields& f, StopCase& c) {
   f.flag(Key("on_separation", "", "Whether the run is unstable once particles have left the body.")
              .otherwise("true, but false where a soil yields"),
          c.on_separation);
+  f.number(Key("displacement", "m",
+               "The soil has failed, and the run ends, once a particle has moved further than this.")
+               .otherwise("never"),
+           c.displacement, above(0, farthest));
 }
 
 void declare(Fields& f, CheckCase& c) {

@@ -7,6 +7,9 @@
 namespace porosph {
 
 std::string fem_obstacle(const Case& scene) {
+  if (!scene.stages.empty() || scene.plan) return "the case has stages";
+  if (!scene.start_from.empty()) return "the case starts from the state of another run";
+  if (scene.loading.horizontal != 0) return "gravity is not upright (loading.horizontal)";
   for (const SoilCase& soil : scene.soils) {
     if (soil.no_tension) return fmt::format("soil '{}' carries no tension, which is not linear", soil.name);
     if (soil.law != LawKind::elastic)

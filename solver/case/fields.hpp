@@ -67,6 +67,7 @@ void declare(Fields&, StopCase&);
 void declare(Fields&, CheckCase&);
 void declare(Fields&, OutputCase&);
 void declare(Fields&, ProbeCase&);
+void declare(Fields&, StageCase&);
 
 /// Someone to whom keys are declared. A reader sets the values, the others look at them.
 class Fields {
@@ -84,6 +85,7 @@ class Fields {
   virtual void name(const Key&,
                     std::string&) = 0;  ///< letters, digits, '_' and '-': fit for paths and column heads
   virtual void words(const Key&, std::vector<std::string>&, std::span<const std::string> allowed) = 0;
+  virtual void texts(const Key&, std::vector<std::string>&) = 0;  ///< a list of any
   virtual void point(const Key&, Point&) = 0;
   virtual void pairs(const Key&, std::vector<Point>&) = 0;  ///< [a, b], a increasing; may be left out
   virtual void polygon(const Key&, Polygon&) = 0;

@@ -14,6 +14,7 @@ void move(Polygon& polygon, const Point& by) {
 }  // namespace
 
 Point local_origin(const Case& scene) {
+  if (scene.plan) return local_origin(*scene.plan);  // the same in all stages
   Point low = Point::Constant(never), farthest = Point::Zero();
   for (const SoilCase& soil : scene.soils)
     for (const Point& p : soil.polygon) low = low.cwiseMin(p), farthest = farthest.cwiseMax(p.cwiseAbs());

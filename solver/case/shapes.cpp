@@ -141,6 +141,37 @@ Overlap overlap(const SoilCase& a, const SoilCase& b) {
   return {bg::area(common), point(box.min_corner()), point(box.max_corner())};
 }
 
+std::vector<SoilCase> parts_of(const SoilCase& soil, const Polygon& outline, bool inside, double least) {
+  bg::model::multi_polygon<BoostPolygon> parts;
+  const BoostPolygon whole = boost_polygon(soil), cutter = boost_polygon(outline);
+  if (inside)
+    bg::intersection(whole, cutter, parts);
+  else
+    bg::difference(whole, cutter, parts);
+  const auto open_ring = [](const auto& ring) {
+    Polygon open;
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) open.push_back(point(ring[i]));
+    return open;
+  };
+  std::vector<SoilCase> soils;
+  for (const BoostPolygon& part : parts) {
+    if (bg::area(part) <= least) continue;
+    SoilCase& piece = soils.emplace_back(soil);
+    piece.polygon = open_ring(part.outer());
+    piece.holes.clear();
+    for (const auto& hole : part.inners()) piece.holes.push_back(open_ring(hole));
+  }
+  const bool whole_soil = soils.size() == 1 && std::abs(bg::area(whole) - area(soils[0])) <= least;
+  if (whole_soil) soils[0] = soil;  // as it was drawn
+  return soils;
+}
+
+double highest_point(const SoilCase& soil) {
+  double y = -never;
+  for (const Point& p : soil.polygon) y = std::max(y, p.y());
+  return y;
+}
+
 double distance(const SoilCase& a, const SoilCase& b) {
   return bg::distance(boost_polygon(a), boost_polygon(b));
 }

@@ -27,6 +27,11 @@ double distance(const SoilCase& a, const SoilCase& b);  ///< 0 if they touch or 
 std::pair<Point, Point> nearest_points(const SoilCase& a, const SoilCase& b);  ///< of two that are apart [m]
 double distance(const Point& point, const SoilCase& soil);  ///< 0 inside and on the outline [m]
 
+/// What of a soil lies inside of an outline, or outside of it: pieces that hang together, with the soil's
+/// settings, those of less than `least` [m2] left out.
+std::vector<SoilCase> parts_of(const SoilCase& soil, const Polygon& outline, bool inside, double least);
+double highest_point(const SoilCase& soil);  ///< y [m]
+
 /// Where soils i and j face each other across less than `width` [m] with no soil between: cracks and pointed
 /// slits.
 struct Slit {

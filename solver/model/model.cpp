@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "solver/boundary/water_face.hpp"
@@ -26,9 +27,35 @@ double unit_weight(const SoilCase& soil, const StandingWater& water, const Site&
   return wet * soil.unit_weight_saturated + (1 - wet) * soil.unit_weight_unsaturated;
 }
 
-Particles make_particles(const Case& scene, const StandingWater& water, const std::vector<Site>& sites) {
+/// Where particles are, those of soils that are there. A site's number among those of all stages is its id.
+struct Sites {
+  std::vector<Site> sites;
+  std::vector<std::int32_t> ids;
+};
+
+Sites sites_of(const Case& scene, const Point& origin) {
+  Sites all{place_particles(scene.plan ? moved(*scene.plan, -origin) : scene), {}};
+  all.ids.resize(all.sites.size());
+  std::iota(all.ids.begin(), all.ids.end(), 0);
+  if (!scene.plan) return all;
+  std::vector<int> place;  // of the plan's soils in this case
+  for (const SoilCase& soil : scene.plan->soils) {
+    const auto found = std::ranges::find(scene.soils, soil.name, &SoilCase::name);
+    place.push_back(found == scene.soils.end() ? -1 : static_cast<int>(found - scene.soils.begin()));
+  }
+  Sites present;
+  for (std::size_t i = 0; i < all.sites.size(); ++i) {
+    Site site = all.sites[i];
+    if ((site.soil = place[site.soil]) < 0) continue;
+    present.sites.push_back(site), present.ids.push_back(all.ids[i]);
+  }
+  return present;
+}
+
+Particles make_particles(const Case& scene, const StandingWater& water, const Sites& places) {
   Particles p;
-  for (const Site& site : sites) {
+  p.id = places.ids;
+  for (const Site& site : places.sites) {
     const SoilCase& soil = scene.soils[site.soil];
     const double density = unit_weight(soil, water, site) / scene.loading.gravity;
     p.position.push_back(site.position);
@@ -37,7 +64,6 @@ Particles make_particles(const Case& scene, const StandingWater& water, const st
     p.mass.push_back(density * site.area);
     p.fill.push_back(site.fill);
     p.soil.push_back(site.soil);
-    p.id.push_back(static_cast<std::int32_t>(p.id.size()));
     p.pore_pressure.push_back(water.pore_pressure(site.position.x(), site.position.y()));
     p.stress.push_back({});
   }
@@ -78,11 +104,14 @@ Model build_model(const Case& case_as_drawn) {
   model.smoothing_length = scene.smoothing_length();
   model.water = StandingWater(scene.water);
   model.pore_water = std::make_shared<StillWater>();
-  if (scene.loading.gravity_applied) model.gravity = Vec2(0, -scene.loading.gravity);
-  for (const SoilCase& s : scene.soils)
+  if (scene.loading.gravity_applied)
+    model.gravity = scene.loading.gravity * Vec2(scene.loading.horizontal, -1);
+  for (const SoilCase& s : scene.soils) {
+    model.soil_ids.push_back(s.id < 0 ? static_cast<std::int32_t>(model.soils.size()) : s.id);
     model.soils.emplace_back(soil_law(s, model.spacing), s.law != LawKind::elastic);
+  }
 
-  model.particles = make_particles(scene, model.water, place_particles(scene));
+  model.particles = make_particles(scene, model.water, sites_of(scene, model.origin));
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
   for (std::size_t i = 0; i < model.soils.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/case/shapes.hpp"
+
 namespace porosph {
 namespace {
 
@@ -29,12 +31,6 @@ auto frictional(const StrengthCase& c, double spacing, double reduction, Make&& 
   if (c.softening == SofteningKind::none) return peak;
   return peak.softened_to(c.residual_cohesion / reduction,
                           reduced_angle(c.residual_friction_angle, reduction), softening_of(c, spacing));
-}
-
-double highest_point(const SoilCase& soil) {
-  double y = -never;
-  for (const Point& p : soil.polygon) y = std::max(y, p.y());
-  return y;
 }
 
 Tresca tresca(const SoilCase& soil, const Elasticity& elastic, double spacing, double reduction) {

@@ -117,7 +117,11 @@ const std::vector<Reader>& readers() {
        [](Simulation& s) {
          return scalars<double>(particles(s), [&](auto) { return s.model().smoothing_length; });
        }},
-      {particle_fields::soil_id.name, [](Simulation& s) { return particles(s).soil; }},
+      {particle_fields::soil_id.name,
+       [](Simulation& s) {
+         return scalars<std::int32_t>(particles(s),
+                                      [&](auto i) { return s.model().soil_ids[particles(s).soil[i]]; });
+       }},
       {particle_fields::particle_id.name, [](Simulation& s) { return particles(s).id; }},
       {particle_fields::principal_stress.name, [](Simulation& s) { return principal(particles(s)); }},
       {particle_fields::mean_stress.name,

@@ -63,6 +63,18 @@ struct Summary {
     double x = 0, y = 0;           ///< where that is [m]
   };
   std::optional<Zigzag> zigzag;
+  /// Where the energy went that gravity released in soil that flows [J/m].
+  struct EnergyBudget {
+    double released = 0;        ///< by gravity, loads and water, with what evening out the particles put in
+    double kinetic = 0;         ///< now
+    double elastic = 0;         ///< gained
+    double plastic = 0;         ///< dissipated by the soil laws
+    double control = 0;         ///< by the zero-energy control
+    double diffusion = 0;       ///< by the diffusion of stress
+    double bulk_viscosity = 0;  ///< by bulk viscosity
+    double unaccounted = 0;     ///< the rest: damping, and what the integration loses or gains
+  };
+  std::optional<EnergyBudget> energy;
   /// What water did that flows.
   struct Seepage {
     std::vector<double> through_faces;  ///< into the soil through each [[water.face]] of the case [m2/s]
@@ -84,6 +96,17 @@ struct Summary {
   std::map<std::string, Probe> probes;
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  /// One stage of a case that has them.
+  struct Stage {
+    std::string name;
+    std::string ended;                         ///< "time", "rest", "failure", "unstable" or "interrupted"
+    double start = 0, time = 0;                ///< when it began and ended [s]
+    std::int64_t steps = 0, particles = 0;     ///< of this stage
+    double unbalanced_force_ratio = 0;         ///< at its end [-]
+    double largest_displacement = 0;           ///< at its end, as displacements count [m]
+    std::map<std::string, Probe> probes = {};  ///< at its end
+  };
+  std::vector<Stage> stages;                   ///< that have been computed; empty where the case has none
   std::optional<FemCheck> finite_elements;     ///< what the run is held against by itself
   std::vector<std::string> warnings;           ///< that the run began with
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why

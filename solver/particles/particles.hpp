@@ -20,7 +20,7 @@ struct HistoryField {
 /// Structure of arrays, all of the same length, SI units. Ghosts and virtual particles are not among them.
 struct Particles {
   std::vector<Vec2> position, velocity;  ///< [m], [m/s]; between steps the velocity is half a step behind
-  std::vector<Vec2> start;               ///< position at t = 0 [m]
+  std::vector<Vec2> start;               ///< position as drawn, at t = 0 [m]
   std::vector<Stress> stress;            ///< effective [Pa]
   std::vector<double> pore_pressure;     ///< p_w <= 0 [Pa]
   std::vector<double> density;           ///< [kg/m3]
@@ -32,10 +32,14 @@ struct Particles {
   /// Stress along the interface where soils of different stiffness meet, beyond the soil's own [Pa]; empty in
   /// one soil.
   std::vector<double> interface_stress;
+  std::vector<Vec2> uncounted;  ///< displacement before they were counted again from 0 [m]; empty: none
 
   std::size_t size() const { return position.size(); }
   double volume(std::size_t i) const { return mass[i] / density[i]; }  ///< [m2]
-  Vec2 displacement(std::size_t i) const { return position[i] - start[i]; }
+  Vec2 displacement(std::size_t i) const {
+    const Vec2 moved = position[i] - start[i];
+    return uncounted.empty() ? moved : Vec2(moved - uncounted[i]);
+  }
 
   /// Calls use(name, values) for every array that changes from step to step: all that must be kept to go on
   /// from a state. The rest the case gives.

@@ -2,19 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 
-Probe::Probe(const ProbeCase& probe, const Model& model) : name_(probe.name), start_(probe.position) {
+Probe::Probe(const ProbeCase& probe, const Model& model, std::int32_t soil)
+    : name_(probe.name), start_(probe.position) {
   const Particles& p = model.particles;
   const Vec2 place = start_ - model.origin;
   const std::vector<Vec2> here = {place};
   particles_ = find_neighbours(here, p.position, 2 * model.smoothing_length).index;
   std::erase_if(particles_,
                 [&](std::int32_t b) { return !model.visibility.sees_from(start_ - model.origin, b, p); });
+  if (soil >= 0) std::erase_if(particles_, [&](std::int32_t b) { return model.soil_ids[p.soil[b]] != soil; });
   if (particles_.empty())
     throw std::runtime_error(fmt::format("probe '{}' at ({:.12g}, {:.12g}) has no particle within {} m",
                                          name_, start_.x(), start_.y(), 2 * model.smoothing_length));
@@ -26,6 +29,10 @@ Probe::Probe(const ProbeCase& probe, const Model& model) : name_(probe.name), st
 
 Reading Probe::read(const Particles& p) const {
   Reading r;
+  if (particles_.empty()) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {{none, none, none, none}, none, Vec2::Constant(none)};
+  }
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const std::int32_t b = particles_[i];
     r.stress = r.stress + p.stress[b] * weights_[i];

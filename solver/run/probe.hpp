@@ -31,14 +31,20 @@ inline const std::vector<std::string>& probe_quantities() {
 /// stay with those particles.
 class Probe {
  public:
-  /// Throws std::runtime_error where no particle is within the kernel's support.
-  Probe(const ProbeCase& probe, const Model& model);
+  /// `soil`: number in the case file of the one soil that is read, as displacements of soils that were placed
+  /// at different times jump between them; -1: all. Throws std::runtime_error where no particle is within the
+  /// kernel's support.
+  Probe(const ProbeCase& probe, const Model& model, std::int32_t soil = -1);
+
+  /// One in soil that is not there, which reads what is not a number.
+  static Probe nowhere(const ProbeCase& probe) { return Probe(probe); }
 
   Reading read(const Particles& particles) const;
   const std::string& name() const { return name_; }
   const Vec2& start() const { return start_; }  ///< [m]
 
  private:
+  explicit Probe(const ProbeCase& probe) : name_(probe.name), start_(probe.position) {}
   std::string name_;
   Vec2 start_;
   std::vector<std::int32_t> particles_;

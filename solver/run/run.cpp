@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "solver/run/energy_budget.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 
 namespace porosph {
@@ -60,16 +62,25 @@ std::vector<double> history_row(const Simulation& s) {
   return row;
 }
 
+bool has_failed(const Simulation& s) {
+  constexpr std::int64_t steps_between_looks = 20;
+  if (!(s.scene().stop.displacement < never) || s.step() % steps_between_looks != 0) return false;
+  return s.largest_displacement() > s.scene().stop.displacement;
+}
+
 /// Physical damping and viscosity only lose energy, so growth is an error of the motion equation.
 double energy_growth(const Simulation::Energy& now, const RunProgress& progress) {
   return progress.most_at_work > 0 ? (now.total() - progress.energy_at_start) / progress.most_at_work : 0;
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
-/// level that moves or presses on a face: there energy tells nothing.
+/// level that moves or presses on a face, and a load that changes: there energy tells nothing.
 bool keeps_energy(const Simulation& s) {
   const Case& scene = s.scene();
-  return scene.water.level_over_time.empty() && !scene.water.flows() && s.model().loads.empty() &&
+  const bool loads_change =
+      std::ranges::any_of(scene.loads, [](const LoadCase& load) { return !load.over_time.empty(); });
+  return !loads_change && scene.water.level_over_time.empty() && !scene.water.flows() &&
+         s.model().loads.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 
@@ -102,17 +113,17 @@ class Guard {
 }  // namespace
 
 Schedule::Schedule(double interval, double time_step, std::int64_t last_step,
-                   const std::vector<double>& times)
-    : interval_(interval), dt_(time_step), last_(last_step) {
-  for (const double time : times) at_times_.insert(std::llround(time / time_step));
+                   const std::vector<double>& times, double start)
+    : interval_(interval), dt_(time_step), start_(start), last_(last_step) {
+  for (const double time : times) at_times_.insert(std::llround((time - start) / time_step));
 }
 
 bool Schedule::due(std::int64_t step) const {
   if (step == 0 || step == last_ || at_times_.contains(step)) return true;
   if (interval_ <= 0) return false;
   if (interval_ <= dt_) return true;
-  const double nearest = std::round(static_cast<double>(step) * dt_ / interval_);
-  return std::llround(nearest * interval_ / dt_) == step;
+  const double nearest = std::round((start_ + static_cast<double>(step) * dt_) / interval_);
+  return std::llround((nearest * interval_ - start_) / dt_) == step;
 }
 
 std::vector<std::string> history_columns(const Simulation& simulation) {
@@ -137,9 +148,9 @@ void RunProgress::visit(StateArchive& state) {
 RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   using Clock = std::chrono::steady_clock;
   const OutputCase& output = s.scene().output;
-  const Schedule frames(output.interval, s.time_step(), s.last_step(), output.times);
+  const Schedule frames(output.interval, s.time_step(), s.last_step(), output.times, s.start_time());
   const double history_interval = output.history_interval > 0 ? output.history_interval : s.time_step();
-  const Schedule rows(history_interval, s.time_step(), s.last_step());
+  const Schedule rows(history_interval, s.time_step(), s.last_step(), {}, s.start_time());
   const Equilibrium equilibrium(s);
   RunOutcome outcome;
   const auto record = [&](bool frame_due, bool row_due) {
@@ -157,7 +168,11 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     const Simulation::Energy energy = s.energy();
     progress.energy_at_start = energy.total();
     progress.most_at_work = energy.kinetic + energy.elastic;
-    record(true, true);
+    progress.unbalanced_at = progress.zigzag_at = s.start_time();
+    if (s.start_time() > 0)  // the stage before ended with what there was to record
+      progress.framed = progress.recorded = 0;
+    else
+      record(true, true);
   } else {
     record(frames.due(s.step()), rows.due(s.step()));  // where the end is later than it was
   }
@@ -177,12 +192,20 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
       outcome.message = s.instability()->message;
       break;
     }
+    const bool failed = !settled && has_failed(s);
     const bool last = s.step() == s.last_step();
     if (last && !settled && watch.checkpoint) watch.checkpoint(s, progress, true);
     record(frames.due(s.step()), rows.due(s.step()));
     if (watch.progress) watch.progress(s);
-    const bool interrupted = !last && !settled && watch.interrupted && watch.interrupted();
-    if (watch.checkpoint && !last && !settled) watch.checkpoint(s, progress, interrupted);
+    const bool goes_on = !last && !settled && !failed;
+    const bool interrupted = goes_on && watch.interrupted && watch.interrupted();
+    if (watch.checkpoint && goes_on) watch.checkpoint(s, progress, interrupted);
+    if (failed) {
+      outcome.failed = true;
+      outcome.message = fmt::format("failed: a particle has moved further than stop.displacement = {:g} m",
+                                    s.scene().stop.displacement);
+      break;
+    }
     if (settled) {
       outcome.status = RunStatus::equilibrium;
       outcome.message =
@@ -204,6 +227,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   const Simulation::Energy energy = s.energy();
   progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
   outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
+  if (showable) outcome.energy = energy_budget(s, progress.energy_at_start);
   return outcome;
 }
 

@@ -14,11 +14,13 @@ namespace porosph {
 /// always due.
 class Schedule {
  public:
-  Schedule(double interval, double time_step, std::int64_t last_step, const std::vector<double>& times = {});
+  /// `start`: time at step 0 [s].
+  Schedule(double interval, double time_step, std::int64_t last_step, const std::vector<double>& times = {},
+           double start = 0);
   bool due(std::int64_t step) const;
 
  private:
-  double interval_, dt_;
+  double interval_, dt_, start_;
   std::int64_t last_;
   std::set<std::int64_t> at_times_;
 };
@@ -51,9 +53,11 @@ struct RunWatch {
 
 struct RunOutcome {
   RunStatus status = RunStatus::completed;
-  std::string message;          ///< where and why, unless completed
-  double energy_growth = 0;     ///< as in Summary; not a number where the state has broken down
-  double stepping_seconds = 0;  ///< wall time without what the watch did [s]
+  std::string message;       ///< where and why, unless completed
+  bool failed = false;       ///< the soil has moved further than the case calls failure
+  double energy_growth = 0;  ///< as in Summary; not a number where the state has broken down
+  std::optional<Summary::EnergyBudget> energy;  ///< as in Summary
+  double stepping_seconds = 0;                  ///< wall time without what the watch did [s]
 };
 
 /// Advances to the end, from the start or from where a restored `progress` left off. The last frame and

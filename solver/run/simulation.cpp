@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solver/case/local_origin.hpp"
+#include "solver/case/shapes.hpp"
 #include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
 #include "solver/run/leapfrog.hpp"
@@ -30,14 +31,15 @@ double courant_number(const Case& scene, const Model& model) {
 
 /// The case's, or else the largest that the Courant number allows, rounded down so that whole steps reach the
 /// end time [s].
-double time_step_of(const Case& scene, const Model& model, double courant) {
+double time_step_of(const Case& scene, const Model& model, double courant, double start) {
   const double largest = courant * model.smoothing_length / model.wave_speed;
   const double given = scene.time.step;
   if (given > largest * (1 + 1e-12))
     throw std::runtime_error(fmt::format(
         "time.step = {:g} s: must be <= {:g} s, as the Courant number is {:g}", given, largest, courant));
   if (given > 0) return given;
-  return scene.time.end / std::ceil(scene.time.end / largest * (1 - 1e-12));
+  const double duration = scene.time.end - start;
+  return duration / std::ceil(duration / largest * (1 - 1e-12));
 }
 
 /// Kicks and moves particles first to last - 1; returns how many of them are faster than `limit`, the square
@@ -59,6 +61,24 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
   return runaways;
 }
 
+/// In a stage a probe reads the soil that it is in, and is nowhere until that is there.
+Probe make_probe(const ProbeCase& probe, const Case& scene, const Model& model) {
+  if (!scene.plan) return Probe(probe, model);
+  for (const SoilCase& soil : scene.soils)
+    if (distance(probe.position, soil) <= 0) return Probe(probe, model, soil.id);
+  return Probe::nowhere(probe);
+}
+
+/// What the case does not give where the state of another was taken over.
+void visit_taken_over(StateArchive& state, Particles& p) {
+  bool recounted = !p.uncounted.empty();
+  state.array("mass", p.mass);
+  state.value("recounted", recounted);
+  if (!recounted) return;
+  p.uncounted.resize(p.size());
+  state.array("uncounted", p.uncounted);
+}
+
 void visit_particles(StateArchive& state, Particles& p) {
   p.for_each_changing([&](std::string_view name, auto& values) { state.array(name, values); });
 }
@@ -66,19 +86,34 @@ void visit_particles(StateArchive& state, Particles& p) {
 }  // namespace
 
 Simulation::Simulation(const Case& scene, const DynamicsMaker& dynamics)
+    : Simulation(scene, Beginning{}, dynamics) {}
+
+Simulation::Simulation(const Case& scene, const Beginning& beginning, const DynamicsMaker& dynamics)
     : scene_(scene),
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
       surface_loads_(surface_loads(moved(scene, -model_.origin), model_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
+  if (!scene.stages.empty())
+    throw std::runtime_error("the case has stages ([[stage]]), which porosph run and porosph check follow");
+  clock_.start = beginning.time;
   clock_.courant = courant_number(scene, model_);
-  clock_.dt = time_step_of(scene, model_, clock_.courant);
-  clock_.last_step = std::llround(std::ceil(scene.time.end / clock_.dt * (1 - 1e-12)));
-  for (const ProbeCase& probe : scene.probes) probes_.emplace_back(probe, model_);
+  clock_.dt = time_step_of(scene, model_, clock_.courant, clock_.start);
+  clock_.last_step = std::llround(std::ceil((scene.time.end - clock_.start) / clock_.dt * (1 - 1e-12)));
+  for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
   if (scene.water.mode == WaterMode::coupled) couple();
   at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     at_start_.bodies = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
+  if (beginning.state == nullptr) return;
+  take_over(beginning, scene, model_);
+  taken_over_ = true;
+}
+
+HandedOver Simulation::hand_over() {
+  HandedOver state{scene_, model_.particles, model_.origin};
+  state.particles.velocity = velocities();
+  return state;
 }
 
 void Simulation::set_law(const std::string& soil, AnyLaw law) {
@@ -185,7 +220,7 @@ void Simulation::drift() {
   Particles& p = model_.particles;
   const Kick kick = (clock_.step == 0 ? first_kick : full_kick)(damping(), clock_.dt);
   const bool wet = model_.pore_water->acts(model_.water);
-  const double then = static_cast<double>(clock_.step + 1) * clock_.dt;
+  const double then = time_of(clock_.step + 1);
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
   std::int64_t runaways = 0;
@@ -202,6 +237,8 @@ void Simulation::drift() {
 void Simulation::visit(StateArchive& state) {
   bool prepared = accelerations_valid_;
   Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
+  state.value("taken_over", taken_over_);
+  if (taken_over_) visit_taken_over(state, model_.particles);
   state.value("step", clock_.step);
   state.value("prepared", prepared);
   state.value("searches", counts_then.searches);
@@ -265,6 +302,13 @@ bool Simulation::exchange_with_last_good() {
   std::swap(clock_.step, good->step);
   accelerations_valid_ = true;
   return true;
+}
+
+double Simulation::largest_displacement() const {
+  const Particles& p = model_.particles;
+  double squared = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) squared = std::max(squared, p.displacement(i).squaredNorm());
+  return std::sqrt(squared);
 }
 
 double Simulation::unbalanced_force_ratio() {

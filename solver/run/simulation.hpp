@@ -8,6 +8,7 @@
 
 #include "solver/model/model.hpp"
 #include "solver/run/consolidation.hpp"
+#include "solver/run/hand_over.hpp"
 #include "solver/run/monitor/instability.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
@@ -23,6 +24,13 @@ class Simulation {
   /// `dynamics`: another implementation than the case's own, to be compared with it.
   explicit Simulation(const Case& scene, const DynamicsMaker& dynamics = make_dynamics);
 
+  /// As above, from another state than the case's own; where `beginning` has none but a time, visit()
+  /// restores it.
+  Simulation(const Case& scene, const Beginning& beginning, const DynamicsMaker& dynamics = make_dynamics);
+
+  /// The present state, for the next stage or another run to begin with.
+  HandedOver hand_over();
+
   /// Gives a soil another law, before the first step. Throws std::invalid_argument where no soil has that
   /// name, or where the law is stiffer than the soil that sets the time step.
   void set_law(const std::string& soil, AnyLaw law);
@@ -36,9 +44,11 @@ class Simulation {
 
   std::int64_t step() const { return clock_.step; }
   std::int64_t last_step() const { return clock_.last_step; }  ///< the step that reaches the case's end time
-  double time() const { return static_cast<double>(clock_.step) * clock_.dt; }  ///< [s]
-  double time_step() const { return clock_.dt; }                                ///< [s]
-  double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
+  double time() const { return time_of(clock_.step); }         ///< [s]
+  double time_of(std::int64_t step) const { return clock_.start + static_cast<double>(step) * clock_.dt; }
+  double start_time() const { return clock_.start; }  ///< 0, but in later stages [s]
+  double time_step() const { return clock_.dt; }      ///< [s]
+  double courant() const { return clock_.courant; }   ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -50,6 +60,7 @@ class Simulation {
   /// Velocities at the present instant (the integrator's are half a step behind) [m/s].
   std::vector<Vec2> velocities();
 
+  double largest_displacement() const;  ///< of all particles, as it counts [m]
   /// Root mean square of the unbalanced forces over that of the weights; infinite in a weightless scene.
   double unbalanced_force_ratio();
   struct Energy {
@@ -89,7 +100,7 @@ class Simulation {
   void name_breakdown(double time);
 
   struct Clock {
-    double courant = 0, dt = 0;
+    double start = 0, courant = 0, dt = 0;
     std::int64_t step = 0, last_step = 0;
   };
   struct AtStart {
@@ -115,7 +126,8 @@ class Simulation {
   std::vector<LoadedParticles> surface_loads_;
   std::vector<Vec2> accelerations_;
   bool accelerations_valid_ = false;
-  Relaxation relaxation_;  ///< unused unless the case's damping is adaptive
+  bool taken_over_ = false;  ///< began with the state of another
+  Relaxation relaxation_;    ///< unused unless the case's damping is adaptive
   AtStart at_start_;
   std::optional<Breakdown> instability_;
   bool runaway_ = false;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "solver/case/case_file.hpp"
+#include "solver/case/stages.hpp"
 
 namespace porosph {
 namespace {
@@ -97,7 +98,8 @@ class SweepRun {
 
 std::vector<std::optional<Verdict>> run_sweep(const Sweep& sweep, const MeasureMaker& measure, int jobs,
                                               const SweepWatch& watch) {
-  read_case(sweep.case_file, sweep.settings);  // what is wrong without any axis is wrong everywhere
+  require_plain(read_case(sweep.case_file, sweep.settings),
+                "a sweep");  // what is wrong without any axis is wrong everywhere
   return SweepRun(sweep, measure, watch).all(std::max(1, jobs));
 }
 

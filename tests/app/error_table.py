@@ -65,7 +65,10 @@ IN_THE_CASE = [
     ("a key with a typing mistake", "youngs_modulus", "young_modulus"),
     ("a key that is missing", "poissons_ratio = 0.3\n", ""),
     ("a value out of range", "poissons_ratio = 0.3", "poissons_ratio = 0.5"),
-    ("text for a number", "end = 0.1", 'end = "0.1 s"'),
+    ("text for a number", "end = 0.1", 'end = "0.1"'),
+    ("a unit of another dimension", "end = 0.1", 'end = "0.1 kPa"'),
+    ("a unit that nobody knows", "youngs_modulus = 1e6", 'youngs_modulus = "1 Mpa"'),
+    ("a unit where none belongs", "poissons_ratio = 0.3", 'poissons_ratio = "0.3 m"'),
     ("a number that is not finite", "end = 0.1", "end = nan"),
     ("text with control characters", '"Box"', '"Box\\u001b[31m"'),
     ("a word that is not offered", '"fixed"', '"fixd"'),
@@ -131,6 +134,43 @@ OF_THE_GROUND = [
      + LOAD.replace("[1, 2]", "[4, 0]").replace("[3, 2]", "[4, 2]") + "[[boundary]]"),
     ("a load of nothing", "[time]", LOAD.replace("pressure = 1e4\n", "") + "[time]"),
 ]
+FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
+
+
+def stage(keys, things=FILL + LOAD):
+    """Puts a stage that changes `keys` behind the soil, and one that brings the fill behind that."""
+    text = '[[stage]]\nname = "next"\nduration = 1\n'
+    later = text.replace("next", "later") + 'fill = ["fill"]\nload_off = ["strip"]\n'
+    return things + text + keys + "\n" + later + "[[boundary]]"
+
+
+IN_A_STAGE = [
+    ("a stage without its duration", "[[boundary]]", '[[stage]]\nname = "next"\n[[boundary]]'),
+    ("two stages of one name", "[[boundary]]",
+     '[[stage]]\nname = "next"\nduration = 1\n' * 2 + "[[boundary]]"),
+    ("digging in a soil that is not there", "[[boundary]]", stage('excavate = ["sandd"]')),
+    ("digging where there is no soil", "[[boundary]]", stage("excavate_within = [[[5, 0], [6, 0], [6, 1]]]")),
+    ("an outline to dig within that crosses itself", "[[boundary]]",
+     stage("excavate_within = [[[0, 0], [1, 1], [1, 0], [0, 1]]]")),
+    ("digging that leaves a sliver", "[[boundary]]",
+     stage("excavate_within = [[[0.2, 0], [4, 0], [4, 2], [0.2, 2]]]")),
+    ("digging under a load", "[[boundary]]", stage("excavate_within = [[[1, 1], [2, 1], [2, 2], [1, 2]]]")),
+    ("digging out all", "[[boundary]]", stage('excavate = ["sand"]')),
+    ("filling what is there", "[[boundary]]",
+     '[[stage]]\nname = "next"\nduration = 1\nexcavate = ["sand"]\nfill = ["sand", "sand"]\n[[boundary]]'),
+    ("a fill on a load", "[[boundary]]", stage("").replace('load_off = ["strip"]', "")),
+    ("stress of a fill without one", "[[boundary]]", stage('fill_stress = "k0"')),
+    ("a load that is not there", "[[boundary]]", stage('load_off = ["strop"]')),
+    ("a load that has gone already", "[[boundary]]", stage('load_off = ["strip", "strip"]')),
+    ("a ramp without a load", "[[boundary]]", stage("ramp = 1")),
+    ("a boundary that is not there", "[[boundary]]", stage('support_off = ["left"]')),
+    ("a setting of a stage with a typing mistake", "[[boundary]]", stage('set = ["water.levle = 1"]')),
+    ("a setting of a stage out of range", "[[boundary]]", stage('set = ["soil.sand.poissons_ratio = 0.5"]')),
+    ("a setting that holds throughout", "[[boundary]]", stage('set = ["particles.spacing = 0.1"]')),
+    ("a setting that moves soil", "[[boundary]]", stage('set = ["soil.sand.polygon = [[0, 0], [1, 0], [1, 1]]"]')),
+    ("stages of consolidation", WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nlevel = 3\n'
+     '[[stage]]\nname = "next"\nduration = 1\n'),
+]
 # What is allowed but can hardly be meant, likewise: warnings, with which the case is computed.
 WARNED_OF = [
     ("unit weight in kN/m3", "unit_weight_saturated = 20e3", "unit_weight_saturated = 20"),
@@ -152,6 +192,12 @@ ON_THE_COMMAND_LINE = [
     ("no such case", "run cse.toml", {}),
     ("an override of a key that is not there", "run case.toml --set soil.sand.youngs=1", {}),
     ("an override of a soil that is not there", "run case.toml --set soil.clay.youngs_modulus=1e6", {}),
+    ("a start from a folder without a state", "run case.toml --out started --set start_from=nothing", {}),
+    ("a start from soil with other particles", "run case.toml --out started --set start_from=run --set particles.spacing=0.4",
+     {}),
+    ("a factor of safety of a case with stages", "safety staged.toml", {
+        "staged.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
+        + '[[stage]]\nname = "next"\nduration = 1\n'}),
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
     ("finite elements into that folder", "fem case.toml --out other", {}),
@@ -163,6 +209,10 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
+    ("an element test of a soil that is not there", "element case.toml clay", {}),
+    ("an element test that there is not", "element case.toml --test triaxial", {}),
+    ("an element test to nowhere", "element case.toml --strain 0.1 --strain 0.1", {}),
+    ("a stress that a test cannot go to", "element case.toml --stress 2e5", {}),
     ("no such field", "render run --field Stress", {}),
     ("a component is needed", "render run --field EffectiveStress", {}),
     ("a section without a line", "section run", {}),
@@ -239,6 +289,7 @@ def main():
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
     page += table("In the ground", in_a_case(place, program, OF_THE_GROUND))
     page += table("In the flow of water", in_a_case(place, program, IN_THE_FLOW))
+    page += table("In a stage", in_a_case(place, program, IN_A_STAGE))
     page += table("Warnings of the case", in_a_case(place, program, WARNED_OF, expected=(0,)))
     page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))
     page += table("With files", by_command(place, program, WITH_FILES))

@@ -58,14 +58,35 @@ void draw_tutorial(const Workplace& place) {
   }
 }
 
+/// The tutorial of the levee, with its soils set on the command line.
+void draw_levee(const Workplace& place) {
+  std::string run = "run levee.toml --quiet --threads 1 --out results/levee";
+  for (const char* setting :
+       {"levee.cohesion=3 kPa", "levee.friction_angle=28 deg", "levee.permeability=1e-7 m/s",
+        "clay.youngs_modulus=10 MPa", "clay.friction_angle=22 deg", "clay.permeability=1e-7 m/s",
+        "sand.youngs_modulus=60 MPa", "sand.cohesion=0", "sand.friction_angle=33 deg",
+        "sand.permeability=1e-4 m/s"})
+    run += std::string(" --set 'soil.") + setting + "'";
+  REQUIRE(place
+              .porosph("import '" POROSPH_SOURCE_DIR
+                       "/cases/drawings/levee.dxf' --skip frame --spacing 1 --out levee.toml")
+              .status == 0);
+  REQUIRE(place.porosph(run).status == 0);
+  REQUIRE(
+      place.porosph("render results/levee --field PorePressure --style bands --out results/levee_water.png")
+          .status == 0);
+}
+
 std::vector<DrawnPicture> draw_all(const Workplace& place) {
   draw_foundation(place);
   draw_tutorial(place);
+  draw_levee(place);
   const fs::path& f = place.folder();
   return {{"foundation.png", f / "foundation/TotalStress_YY.png"},
           {"tutorial_stress.png", f / "results/my_slope/EffectiveStress_YY.png"},
           {"tutorial_history.png", f / "results/my_slope_report/history.png"},
-          {"tutorial_drawdown.png", f / "results/drawdown/EffectiveStress_YY.png"}};
+          {"tutorial_drawdown.png", f / "results/drawdown/EffectiveStress_YY.png"},
+          {"tutorial_levee_water.png", f / "results/levee_water.png"}};
 }
 
 /// Of red, green and blue over all pixels, of 255.

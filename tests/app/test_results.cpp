@@ -73,8 +73,8 @@ TEST_CASE("render draws every frame in one range") {
 
 TEST_CASE("pictures are the same for the same input") {
   const Workplace& place = computed();
-  REQUIRE(place.porosph("report consistent proposed --out report_1").status == 0);
-  REQUIRE(place.porosph("report consistent proposed --out report_2").status == 0);
+  REQUIRE(place.porosph("report consistent proposed --instants 3 --out report_1").status == 0);
+  REQUIRE(place.porosph("report consistent proposed --instants 3 --out report_2").status == 0);
   int pictures = 0;
   for (const auto& entry : fs::directory_iterator(place.folder() / "report_1")) {
     if (entry.path().extension() != ".png") continue;
@@ -82,7 +82,8 @@ TEST_CASE("pictures are the same for the same input") {
     CAPTURE(entry.path().filename());
     CHECK(text_of(entry.path()) == text_of(place.folder() / "report_2" / entry.path().filename()));
   }
-  CHECK(pictures == 9);  // case, three fields, differences, sections, histories, two developments
+  // case, three fields of two runs, differences, slider, section, history, settlement, developments, players
+  CHECK(pictures == 1 + 3 * 3 + 1 + 2 + 1 + 1 + 3 + 2 + 2 * 3);
 }
 
 TEST_CASE("compare finds a run equal to itself, and the known distance of others") {
@@ -145,10 +146,11 @@ TEST_CASE("compare refuses what cannot be compared") {
 
 TEST_CASE("the report is a page of escaped text whose pictures are all there") {
   const Workplace& place = computed();
-  REQUIRE(place.porosph("report consistent proposed --fem fem --out page").status == 0);
+  REQUIRE(place.porosph("report consistent proposed --fem fem --instants 4 --out page").status == 0);
   const std::string page = text_of(place.folder() / "page/index.html");
   CHECK_THAT(page, Contains("Small &lt;column&gt; &amp; &quot;water&quot;") && !Contains("<column>") &&
-                       !Contains("<script") && !Contains("http"));
+                       !Contains("http"));
+  CHECK(page.find("<script>") == page.rfind("<script>"));  // ours alone
   CHECK_THAT(page, Contains("prefers-color-scheme: dark") && Contains("@media print"));
   CHECK_THAT(page, Contains("porosph run consistent/case.toml --out consistent"));
   const std::regex image("<img src=\"([^\"]+)\"");
@@ -157,25 +159,63 @@ TEST_CASE("the report is a page of escaped text whose pictures are all there") {
     CAPTURE((*i)[1].str());
     CHECK(is_png(place.folder() / "page" / (*i)[1].str()));
   }
-  CHECK(images == 10);
+  // as above, with a panel of finite elements in each field, three differences, and four stresses of the
+  // probe
+  CHECK(images == 1 + 3 * 4 + 4 + 2 + 1 + 1 + 3 + 5 + 2 + 2 * 4);
+}
+
+TEST_CASE("a report draws the fields, ranges, sections and instants that are asked for") {
+  const Workplace& place = computed();
+  REQUIRE(place
+              .porosph("report consistent --field StressRatio --field PorePressure --range 0,3 --range -60,0 "
+                       "--level 1 --level 2 --instants 0 --out asked")
+              .status == 0);
+  const std::string page = text_of(place.folder() / "asked/index.html");
+  CHECK_THAT(page, Contains("contours_StressRatio.png") && Contains("contours_PorePressure.png") &&
+                       Contains("sections_2.png") && !Contains("contours_TotalStress") &&
+                       !Contains("class=\"player\"") && Contains("development_consistent.png"));
+  CHECK_THAT(text_of(place.folder() / "asked/sections.csv"), Contains("StressRatio"));
+  for (const auto& [arguments, message] : {std::pair{"--range 0,1", "1 --range for 0 --field"},
+                                           {"--field Nothing", "no field 'Nothing'"},
+                                           {"--vertical 1 --level 1", "do not go together"},
+                                           {"--instants -1", "must be from 0 to 1000"}}) {
+    CAPTURE(arguments);
+    const Outcome refused = place.porosph(std::string("report consistent --out no ") + arguments);
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains(message));
+  }
+}
+
+TEST_CASE("history draws stress, settlement, stress paths and Mohr's circle at probes") {
+  const Workplace& place = computed();
+  for (const char* show : {"stress", "settlement", "pq", "st", "mohr"}) {
+    CAPTURE(show);
+    const Outcome drawn = place.porosph(std::string("history consistent proposed --show ") + show);
+    CHECK(drawn.status == 0);
+    CHECK(is_png(place.folder() / ("consistent/history_" + std::string(show) + ".png")));
+  }
+  CHECK(place.porosph("history consistent --show st --probe A --out paths/a.svg").status == 0);
+  CHECK_THAT(text_of(place.folder() / "paths/a.svg"), Contains("<svg"));
+  CHECK_THAT(place.porosph("history consistent --probe B").err, Contains("--probe = B: consistent has A"));
+  CHECK_THAT(place.porosph("history consistent --show pg").err, Contains("must be stress, settlement, pq"));
 }
 
 TEST_CASE("a report has contents, and may be a single file with a summary beside it") {
   const Workplace& place = computed();
-  REQUIRE(place.porosph("report consistent proposed --fem fem --out linked").status == 0);
+  REQUIRE(place.porosph("report consistent proposed --fem fem --instants 4 --out linked").status == 0);
   const std::string linked = text_of(place.folder() / "linked/index.html");
-  CHECK_THAT(linked, Contains("<li><a href=\"#stress-with-height\">Stress with height</a></li>") &&
-                         Contains("<section id=\"stress-with-height\">") &&
+  CHECK_THAT(linked, Contains("<li><a href=\"#sections\">Sections</a></li>") &&
+                         Contains("<section id=\"sections\">") &&
                          Contains("<a href=\"sections.png\"><img src=\"sections.png\"") &&
                          Contains("by Porosph "));
-  REQUIRE(
-      place.shell("SOURCE_DATE_EPOCH=0 '" POROSPH_PROGRAM
-                  "' report consistent proposed --fem fem --out single --single-file --summary summary.md "
-                  "--fail-if 'time>1e9'") == 0);
+  REQUIRE(place.shell("SOURCE_DATE_EPOCH=0 '" POROSPH_PROGRAM
+                      "' report consistent proposed --fem fem --instants 4 --out single --single-file "
+                      "--summary summary.md "
+                      "--fail-if 'time>1e9'") == 0);
   const std::string page = text_of(place.folder() / "single/index.html");
   CHECK_THAT(page, Contains("Made 1970-01-01 00:00 UTC by Porosph") && !Contains(".png\""));
   const std::regex image("<img src=\"data:image/png;base64,iVBORw0KGgo");
-  CHECK(std::distance(std::sregex_iterator(page.begin(), page.end(), image), {}) == 10);
+  CHECK(std::distance(std::sregex_iterator(page.begin(), page.end(), image), {}) == 39);
   for (const auto& entry : fs::directory_iterator(place.folder() / "single"))
     CHECK(entry.path().extension() != ".png");
   const std::string summary = text_of(place.folder() / "summary.md");

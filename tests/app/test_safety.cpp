@@ -43,6 +43,21 @@ bool exists(const Workplace& place, const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("a report takes what safety found as a part") {
+  const Workplace place;
+  place.write("slope.toml", slope);
+  REQUIRE(place.porosph("run slope.toml --set time.end=0.05 --quiet --out run").status == 0);
+  REQUIRE(place.porosph("safety slope.toml --bracket 0.5 --quiet --out found").status == 0);
+  const Outcome report = place.porosph("report run found --instants 0 --out page");
+  INFO(report.err);
+  REQUIRE(report.status == 0);
+  const std::string page = text_of(place.folder() / "page/index.html");
+  CHECK_THAT(page, Contains("<h2>Factor of safety: Slope</h2>") && Contains("study_1_mechanism.png") &&
+                       Contains("study_1_safety.png") && Contains("Limit equilibrium: Bishop on circles"));
+  CHECK(exists(place, "page/study_1_mechanism.png"));
+  CHECK_THAT(text_of(place.folder() / "found/index.html"), Contains("<h2>Trials</h2>"));
+}
+
 TEST_CASE("a factor of safety comes with both numbers, its curve and its mechanism") {
   const Workplace place;
   place.write("slope.toml", slope);

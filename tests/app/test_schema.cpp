@@ -40,6 +40,10 @@ TEST_CASE("the schema explains every key of a case, and no other") {
     CHECK(own["description"].get<std::string>().size() > 5);
   }
   CHECK(schema_of(schema, "soil.0.youngs_modulus")["exclusiveMinimum"] == 0);
+  const std::regex stiffness(schema_of(schema, "soil.0.youngs_modulus")["pattern"].get<std::string>());
+  CHECK(std::regex_search("1.5e1 MPa", stiffness));
+  CHECK_FALSE(std::regex_search("15 m", stiffness));
+  CHECK(schema_of(schema, "water.level_over_time")["items"]["items"].size() == 2);
   CHECK(schema_of(schema, "formulation.motion")["enum"].size() == 4);
   const Json required = schema_of(schema, "soil")["items"]["required"];
   CHECK(std::find(required.begin(), required.end(), "youngs_modulus") != required.end());

@@ -103,3 +103,27 @@ TEST_CASE("a section says what it needs") {
     CHECK_THAT(refused.err, Contains(message));
   }
 }
+
+TEST_CASE("a grid is written with what it was asked for, or says what it needs") {
+  const Workplace place;
+  place.write("small.toml", small_case);
+  REQUIRE(place.porosph("run small.toml --quiet --out run").status == 0);
+  const Outcome usual = place.porosph("grid run");
+  CHECK(usual.out == "run/grid.vti: 9 x 17 nodes, 153 of them in the soil, at 1 s\n");
+  CHECK_THAT(text_of(place.folder() / "run/grid.vti"),
+             Contains("type=\"ImageData\"") && Contains("EffectiveStress") && Contains("InSoil"));
+  CHECK(place.porosph("grid run --spacing 0.1 --time 0.5 --field VonMisesStress --out g/fine.vti").status ==
+        0);
+  CHECK_THAT(text_of(place.folder() / "g/fine.vti"), Contains("VonMisesStress"));
+  for (const auto& [arguments, message] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"--spacing -1", "--spacing = -1: must be > 0"},
+           {"--spacing 1e-6", "is too large"},
+           {"--out a.vtp", "must end in .vti"},
+           {"--field Stress", "no field 'Stress'"},
+           {"--time 9", "outside of the series"}}) {
+    CAPTURE(arguments);
+    const Outcome refused = place.porosph(std::string("grid run ") + arguments);
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains(message));
+  }
+}

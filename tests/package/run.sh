@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Packs the two .deb, checks what they hold and depend on, and builds the example on them: run.sh
+# Packs the three .deb, checks what they hold and depend on, and builds the example on them: run.sh
 # With POROSPH_BARE, a folder with a bare Debian 12 system, they are installed and tried in a copy of that.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -10,7 +10,7 @@ cmake --build --preset "$preset" -j "$(nproc)"
 rm -rf "build/$preset/packages"
 (cd "build/$preset" && cpack -B packages > packages.log) || { cat "build/$preset/packages.log"; exit 1; }
 cd "build/$preset/packages"
-program=$(echo porosph_*.deb) development=$(echo porosph-dev_*.deb)
+program=$(echo porosph_*.deb) development=$(echo porosph-dev_*.deb) drawings=$(echo porosph-drawings_*.deb)
 dpkg-deb --field "$program" Package Version Depends
 dpkg-deb --contents "$program" > contents.txt
 [[ $(dpkg-deb --field "$program" Depends) == *libvtk9* ]] || { echo "the package does not depend on VTK" >&2; exit 1; }
@@ -18,6 +18,8 @@ for file in usr/bin/porosph usr/share/porosph/cases/foundation.toml usr/share/ma
   usr/share/bash-completion/completions/porosph usr/share/doc/porosph/docs/tutorial.md usr/share/doc/porosph/copyright; do
   grep -q "\./$file\$" contents.txt || { echo "$file is missing" >&2; exit 1; }
 done
+[[ $(dpkg-deb --field "$program" Depends) != *gdal* ]] || { echo "the program depends on GDAL" >&2; exit 1; }
+[[ $(dpkg-deb --field "$drawings" Depends) == *libgdal* ]] || { echo "$drawings does not depend on GDAL" >&2; exit 1; }
 
 work=$(mktemp -d)
 clean_up() {
@@ -39,4 +41,11 @@ fi
 prefix=$work/prefix
 dpkg-deb --extract "$program" "$prefix"
 dpkg-deb --extract "$development" "$prefix"
+levee=$prefix/usr/share/porosph/cases/drawings/levee.dxf
+if "$prefix/usr/bin/porosph" import "$levee" --skip frame --out "$work/levee.toml" 2> "$work/told"; then
+  echo "a drawing was read without the package porosph-drawings" >&2; exit 1
+fi
+grep -q porosph-drawings "$work/told"
+dpkg-deb --extract "$drawings" "$prefix"
+"$prefix/usr/bin/porosph" import "$levee" --skip frame --out "$work/levee.toml"
 ../../../tests/package/example.sh "$prefix/usr" ../../..

@@ -182,6 +182,8 @@ check_scripts(run, other, drawdown, pictures)
 for arguments in (["check_range", run, other, os.path.join(pictures, "compare.png")],
                   ["check_moving_level", drawdown, os.path.join(pictures, "falling.png")],
                   ["check_section", run, os.path.join(pictures, "section.png")],
+                  ["check_marks", run, os.path.join(pictures, "marks.png")],
+                  ["check_plugin", run, os.path.join(pictures, "case.png")],
                   ["check_numpy", run, os.path.join(pictures, "none.png")]):
     subprocess.run([os.environ["PVPYTHON"], os.path.join(os.path.dirname(__file__), "check_script.py"), *arguments], check=True)
 print("ParaView shows all of it; look at the pictures in " + pictures)

@@ -81,8 +81,10 @@ void write_tables() {
   if (!file) throw std::runtime_error("docs/verification.md cannot be written");
 }
 
-struct TableWriter final : Catch::TestEventListenerBase {
-  using TestEventListenerBase::TestEventListenerBase;
+using Listener = Catch::TestEventListenerBase;  // another class's name in Catch2 3
+
+struct TableWriter final : Listener {
+  using Listener::Listener;
   /// The cases are too small to share, and tests run beside each other.
   void testRunStarting(const Catch::TestRunInfo&) override { omp_set_num_threads(1); }
   void testRunEnded(const Catch::TestRunStats& stats) override {

@@ -158,6 +158,55 @@ def prepare_section(run, values):
     section.DensityArray, section.MassArray = "Density", "Mass"
 
 
+def prepare_isolines(run, values, view):
+    """Lines of equal value over triangles between the particles, not computed until they are shown."""
+    colours = GetColorTransferFunction(run["shown"]) if run["shown"] and run["unit"] else None
+    if colours is None or not run["spacing"]:
+        return
+    low, high = colours.RGBPoints[0], colours.RGBPoints[-4]
+    triangles = Delaunay2D(registrationName="Triangles", Input=values, Alpha=2 * run["spacing"])
+    isolines = Contour(registrationName="Isolines", Input=triangles)
+    isolines.ContourBy = ["POINTS", run["shown"]]
+    isolines.Isosurfaces = [low + (high - low) * i / 10 for i in range(11)]
+
+
+CROSSES = """
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray
+points = vtk_to_numpy(self.GetInput().GetPoints().GetData())[:, :2]
+stress = vtk_to_numpy(self.GetInput().GetPointData().GetArray("EffectiveStress")) / 1000.0  # kPa
+cells, chosen = set(), []
+for i, cell in enumerate(map(tuple, numpy.floor(points / (3 * %(spacing)r)).astype(int))):
+    if cell not in cells:
+        cells.add(cell)
+        chosen.append(i)
+values, directions = numpy.linalg.eigh(numpy.array([[[xx, xy], [xy, yy]] for xx, yy, zz, xy, yz, xz in stress[chosen]]))
+longest = numpy.max(numpy.abs(values)) or 1.0
+lines, ends, principal = vtkCellArray(), vtkPoints(), vtkDoubleArray()
+principal.SetName("PrincipalStress [kPa]")
+for place, value, direction in zip(points[chosen], values, directions):
+    for k in range(2):
+        half = 1.4 * %(spacing)r * abs(value[k]) / longest * direction[:, k]
+        lines.InsertNextCell(2, [ends.InsertNextPoint(*(place + s * half), 0.001) for s in (-1, 1)])
+        principal.InsertNextValue(value[k])
+output = self.GetPolyDataOutput()
+output.Initialize()  # of the particles' vertices
+output.SetPoints(ends)
+output.SetLines(lines)
+output.GetCellData().SetScalars(principal)
+"""
+
+
+def prepare_crosses(run, particles):
+    """Principal effective stresses in the plane, at every third particle, not computed until they are shown."""
+    if run["field"] != "EffectiveStress" or not run["spacing"]:
+        return
+    crosses = ProgrammableFilter(registrationName="Principal stresses", Input=particles, OutputDataSetType="vtkPolyData")
+    crosses.Script = CROSSES % run
+
+
 def look_at(view, bounds):
     """Looks from the front at all of it, with room for the colour bar on the right and text at the top."""
     Render(view)  # the first one of a session would move the camera

@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they stand in memory");
 
 constexpr std::string_view magic = "Porosph checkpoint\n";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr const char *newest_name = "checkpoint.bin", *previous_name = "checkpoint.previous.bin";
 
 template <class Number>

@@ -74,6 +74,12 @@ std::string_view words_of(TrialEnd end) {
   return "";
 }
 
+std::string bracket_text(const StrengthReduction& found) {
+  if (found.fails_at == never) return fmt::format("above {:.4g}", found.stable_at);
+  if (found.stable_at == 0) return fmt::format("below {:.4g}", found.fails_at);
+  return fmt::format("{:.4g} to {:.4g}", found.stable_at, found.fails_at);
+}
+
 void write_trials(const std::filesystem::path& file, const StrengthReduction& found) {
   std::string csv = "factor,displacement,unbalanced_force_ratio,steps,end\n";
   for (const StrengthTrial& t : found.trials)

@@ -30,6 +30,9 @@ std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer);
 /// "at rest", "moved far", ...
 std::string_view words_of(TrialEnd end);
 
+/// "1.204 to 1.212", "above 50".
+std::string bracket_text(const StrengthReduction& found);
+
 /// Says so where the two methods are more than 5 % apart; empty where they agree, or one is missing.
 std::string disagreement(const SafetyAnswer& answer);
 

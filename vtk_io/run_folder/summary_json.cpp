@@ -83,6 +83,17 @@ Json object_of(const std::map<std::string, Value>& entries) {
   return object;
 }
 
+Json to_json(const Summary::Stage& stage) {
+  Json json;
+  json["name"] = stage.name, json["ended"] = stage.ended;
+  put(json, "start", stage.start), put(json, "time", stage.time);
+  json["steps"] = stage.steps, json["particles"] = stage.particles;
+  put(json, "unbalanced_force_ratio", stage.unbalanced_force_ratio);
+  put(json, "largest_displacement", stage.largest_displacement);
+  json["probes"] = object_of(stage.probes);
+  return json;
+}
+
 Json to_json(const Summary& summary) {
   Json json;
   json["title"] = summary.title;
@@ -108,6 +119,14 @@ Json to_json(const Summary& summary) {
     put(zigzag, "largest", summary.zigzag->largest);
     put(zigzag, "x", summary.zigzag->x), put(zigzag, "y", summary.zigzag->y);
   }
+  if (summary.energy) {
+    const auto& e = *summary.energy;
+    Json& energy = json["energy_budget"];
+    put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
+    put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
+    put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
+    put(energy, "unaccounted", e.unaccounted);
+  }
   if (summary.seepage) {
     Json& seepage = json["seepage"];
     seepage["through_faces"] = summary.seepage->through_faces;
@@ -123,6 +142,7 @@ Json to_json(const Summary& summary) {
     put(object, "drained", c.drained), put(object, "imbalance", c.imbalance);
   }
   json["probes"] = object_of(summary.probes);
+  for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
   json["warnings"] = summary.warnings;
@@ -145,6 +165,14 @@ class Object {
   }
   bool has(const std::string& key) const { return json_.contains(key); }
   Object object(const std::string& key) const { return {file_, place_of(key), at(key)}; }
+  std::vector<Object> objects(const std::string& key) const {
+    const auto& value = at(key);
+    if (!value.is_array()) fail(key, "must be a list of objects", value);
+    std::vector<Object> result;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      result.push_back({file_, fmt::format("{}[{}]", place_of(key), i), value[i]});
+    return result;
+  }
 
   std::string text(const std::string& key) const {
     const auto& value = at(key);
@@ -263,6 +291,24 @@ Summary::Probe probe_from(const Object& json) {
   return probe;
 }
 
+std::map<std::string, Summary::Probe> probes_from(const Object& json) {
+  std::map<std::string, Summary::Probe> probes;
+  for (const auto& name : json.keys()) probes[name] = probe_from(json.object(name));
+  return probes;
+}
+
+Summary::Stage stage_from(const Object& json) {
+  return {.name = json.text("name"),
+          .ended = json.text("ended"),
+          .start = json.number("start"),
+          .time = json.number("time"),
+          .steps = json.integer<std::int64_t>("steps"),
+          .particles = json.integer<std::int64_t>("particles"),
+          .unbalanced_force_ratio = json.number("unbalanced_force_ratio"),
+          .largest_displacement = json.number("largest_displacement"),
+          .probes = probes_from(json.object("probes"))};
+}
+
 Summary summary_from(const Object& json) {
   Summary summary;
   summary.title = json.text("title");
@@ -282,14 +328,21 @@ Summary summary_from(const Object& json) {
   summary.kernel_correction = json.truth("kernel_correction");
   summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");
   summary.energy_growth = json.number("energy_growth");
-  const auto probes = json.object("probes");
-  for (const auto& name : probes.keys()) summary.probes[name] = probe_from(probes.object(name));
+  summary.probes = probes_from(json.object("probes"));
+  if (json.has("stages"))
+    for (const Object& stage : json.objects("stages")) summary.stages.push_back(stage_from(stage));
   if (json.has("errors")) {
     const auto errors = json.object("errors");
     for (const auto& field : errors.keys()) {
       const auto norms = errors.object(field);
       summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
     }
+  }
+  if (json.has("energy_budget")) {
+    const auto e = json.object("energy_budget");
+    summary.energy = {e.number("released"),       e.number("kinetic"),    e.number("elastic"),
+                      e.number("plastic"),        e.number("control"),    e.number("stress_diffusion"),
+                      e.number("bulk_viscosity"), e.number("unaccounted")};
   }
   if (json.has("zigzag")) {
     const auto zigzag = json.object("zigzag");

@@ -43,14 +43,18 @@ struct Spoke {
   Held is_held;
 };
 
-Strength strength(const std::vector<Spoke>& spokes) {
-  if (spokes.size() != 2) return Strength::singular;  // parts of the outline touch in this point
+/// Within the soil, where two lines of the outline meet.
+double angle_between(const std::vector<Spoke>& spokes) {
   const Spoke& start = spokes[spokes[0].soil_on_left ? 0 : 1];
   const Spoke& end = spokes[spokes[0].soil_on_left ? 1 : 0];
   const double cross = start.direction.x() * end.direction.y() - start.direction.y() * end.direction.x();
   double angle = std::atan2(cross, start.direction.dot(end.direction));
-  if (angle < 0) angle += 2 * std::numbers::pi;
-  return strength(start.is_held, end.is_held, angle);
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+Strength strength(const std::vector<Spoke>& spokes) {
+  if (spokes.size() != 2) return Strength::singular;  // parts of the outline touch in this point
+  return strength(spokes[0].is_held, spokes[1].is_held, angle_between(spokes));
 }
 
 /// What the outline and the lines that end on it make of a point.
@@ -82,11 +86,14 @@ std::vector<Meeting> meetings(const Case& scene, const MeshLines& mesh) {
   return all;
 }
 
+bool is_on_rollers(const Meeting& at) {
+  return std::all_of(at.spokes.begin(), at.spokes.end(),
+                     [](const Spoke& s) { return s.is_held == Held::roller; });
+}
+
 /// Of a point on the outline.
 Strength strength(const Meeting& at) {
-  const bool on_roller = std::all_of(at.spokes.begin(), at.spokes.end(),
-                                     [](const Spoke& s) { return s.is_held == Held::roller; });
-  return on_roller ? strength(at.spokes) : std::max(at.inner, strength(at.spokes));
+  return is_on_rollers(at) ? strength(at.spokes) : std::max(at.inner, strength(at.spokes));
 }
 
 /// Whether lines between two soils turn or branch in a point inside.
@@ -103,7 +110,11 @@ std::vector<RoughPoint> rough_points(const Case& scene, const MeshLines& mesh) {
   const std::vector<Meeting> all = meetings(scene, mesh);
   for (std::size_t p = 0; p < all.size(); ++p) {
     const auto add = [&](RoughPoint::Kind kind) {
-      points.push_back({mesh.points[p], kind, all[p].shortest});
+      points.push_back({.at = mesh.points[p],
+                        .kind = kind,
+                        .shortest = all[p].shortest,
+                        .angle = all[p].spokes.size() == 2 ? angle_between(all[p].spokes) : 0,
+                        .on_rollers = is_on_rollers(all[p])});
     };
     if (is_interface_corner(all[p])) add(RoughPoint::interface_corner);
     if (all[p].spokes.empty()) continue;

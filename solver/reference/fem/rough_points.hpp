@@ -16,6 +16,8 @@ struct RoughPoint {
   Point at;
   Kind kind;
   double shortest;  ///< of the lines that meet there [m]
+  double angle;     ///< of the soil where two lines of the outline meet, else 0 [rad]
+  bool on_rollers;  ///< all lines of the outline that meet there are rollers
 };
 
 /// Corners of the outline where free parts meet, where the way that the outline is held changes, and where a

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
 
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/compare.hpp"
@@ -15,7 +18,8 @@ namespace {
 
 /// Of a soil that are enough for its stress to be resolved.
 constexpr double enough_rows = 4;
-constexpr double noticeable_contrast = 2, noticeable_volume = 0.01, noticeable_strain = 0.02;
+constexpr double noticeable_contrast = 2, noticeable_volume = 0.01, noticeable_strain = 0.02,
+                 noticeable_misfit = 0.02;
 
 bool touch(const SoilCase& a, const SoilCase& b, double dx) { return distance(a, b) < 1e-3 * dx; }
 
@@ -70,22 +74,61 @@ std::vector<std::string> of_the_soil(const Case& scene, const Particles& p, int 
   return causes;
 }
 
-/// Axis-parallel, so that a lattice follows it.
-bool is_upright(const Polygon& outline) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Point side = outline[(i + 1) % outline.size()] - outline[i];
-    if (side.x() != 0 && side.y() != 0) return false;
+/// A side of an outline that the cells of a lattice do not end on.
+struct Misfit {
+  char axis;     ///< 'x' or 'y', the coordinate that is the same all along it
+  double line;   ///< that coordinate [m]
+  double cells;  ///< how far the nearest border of cells is [m]
+  double distance;
+};
+
+/// Sides that are not axis-parallel, which a lattice follows in steps.
+bool is_inclined(const Point& a, const Point& b) { return a.x() != b.x() && a.y() != b.y(); }
+
+using SideVisitor = std::function<void(const Point& from, const Point& to)>;
+
+void for_sides(const Case& scene, const SideVisitor& visit) {
+  const auto around = [&](const Polygon& outline) {
+    for (std::size_t i = 0; i < outline.size(); ++i) visit(outline[i], outline[(i + 1) % outline.size()]);
+  };
+  for (const SoilCase& soil : scene.soils) {
+    around(soil.polygon);
+    for (const Polygon& hole : soil.holes) around(hole);
   }
-  return true;
 }
 
-std::vector<std::string> of_the_arrangement(const Case& scene) {
+/// Of the sides along the axes that the lattice does not fit, the one nearest to x.
+std::optional<Misfit> nearest_misfit(const Case& scene, const Point& x) {
+  const double dx = scene.particles.spacing;
+  Point low(never, never);
+  for_sides(scene, [&](const Point& a, const Point&) { low = low.cwiseMin(a); });
+  std::optional<Misfit> found;
+  for_sides(scene, [&](const Point& a, const Point& b) {
+    if (is_inclined(a, b)) return;
+    const int k = a.x() == b.x() ? 0 : 1;
+    const double off = std::abs(std::remainder(a[k] - low[k], dx)), away = distance(x, x, a, b);
+    if (off > noticeable_misfit * dx && (!found || away < found->distance))
+      found = Misfit{k == 0 ? 'x' : 'y', a[k], off, away};
+  });
+  return found;
+}
+
+std::vector<std::string> of_the_arrangement(const Case& scene, const Point& where) {
   if (scene.particles.arrangement == Arrangement::disordered) return {"the particles are disordered"};
-  const bool upright = std::all_of(scene.soils.begin(), scene.soils.end(),
-                                   [](const SoilCase& soil) { return is_upright(soil.polygon); });
-  if (scene.particles.arrangement == Arrangement::lattice && !upright)
-    return {"the lattice follows inclined lines in steps (arrangement = \"fitted\" or \"surface\" does not)"};
-  return {};
+  if (scene.particles.arrangement != Arrangement::lattice) return {};
+  std::vector<std::string> causes;
+  bool inclined = false;
+  for_sides(scene, [&](const Point& a, const Point& b) { inclined = inclined || is_inclined(a, b); });
+  if (inclined)
+    causes.emplace_back(
+        "the lattice follows inclined lines in steps (arrangement = \"fitted\" or \"surface\" does not)");
+  if (const auto misfit = nearest_misfit(scene, where))
+    causes.push_back(
+        fmt::format("the lattice does not fit the line {} = {:.10g} m, {:.2g} m from the border of its cells "
+                    "(arrangement = "
+                    "\"fitted\" or \"surface\" does)",
+                    misfit->axis, misfit->line, misfit->cells));
+  return causes;
 }
 
 /// Whether particles see only one side there.
@@ -97,6 +140,18 @@ bool at_the_outline(const Case& scene, const Point& x) {
   });
 }
 
+/// What makes a corner a hard place.
+std::string what_is_at(const RoughPoint& corner) {
+  constexpr double bounded_below = std::numbers::pi / 3;  // of a toe on a fixed base: Williams 1952
+  if (corner.kind == RoughPoint::interface_corner) return "where the border of the soils turns or branches";
+  if (corner.angle > 0 && corner.angle < bounded_below)
+    return fmt::format("where the soil ends in {:.0f} degrees, fewer and fewer spacings thick",
+                       corner.angle * 180 / std::numbers::pi);
+  if (corner.on_rollers && corner.angle > std::numbers::pi)
+    return "where soil slides along both walls and stress grows without bound, more steeply than at a crack";
+  return "where stress grows without bound";
+}
+
 std::vector<std::string> of_the_place(const Case& scene, const Point& x) {
   constexpr double near = 8;  // spacings
   const RoughPoint* nearest = nullptr;
@@ -105,7 +160,8 @@ std::vector<std::string> of_the_place(const Case& scene, const Point& x) {
     if (p.kind != RoughPoint::weak && (!nearest || (p.at - x).norm() < (nearest->at - x).norm()))
       nearest = &p;
   if (!nearest || (nearest->at - x).norm() > near * scene.particles.spacing) return {};
-  return {fmt::format("the corner at ({:.10g}, {:.10g}) is near", nearest->at.x(), nearest->at.y())};
+  return {fmt::format("the corner at ({:.10g}, {:.10g}) is near, {}", nearest->at.x(), nearest->at.y(),
+                      what_is_at(*nearest))};
 }
 
 std::vector<std::string> causes(const Case& scene, const Particles& p, const FemSoilCheck& check, int soil,
@@ -118,7 +174,7 @@ std::vector<std::string> causes(const Case& scene, const Particles& p, const Fem
     add({fmt::format("its strain of {:.1f} % is more than finite elements of small strain are made for",
                      100 * check.strain)});
   add(of_the_soil(scene, p, soil));
-  add(of_the_arrangement(scene));
+  add(of_the_arrangement(scene, where));
   add(of_the_place(scene, where));
   if (at_the_outline(scene, where))
     add({fmt::format(

@@ -14,13 +14,16 @@ constexpr std::size_t all_around = 7;        ///< neighbours of a particle that 
 constexpr double flowed = 0.5;               ///< |G| from which neighbours at the start are so no longer
 constexpr double of_alternating_rows = 1.5;  ///< what such rows make of their amplitude
 
+/// Displacement from where it was drawn: where fill or a stage counts its own, that jumps between soils [m].
+Vec2 moved(const Particles& p, std::size_t a) { return p.position[a] - p.start[a]; }
+
 /// Of the displacement, by least squares over the neighbours; zero where they do not span the plane.
 Mat2 gradient(const Particles& p, std::size_t a, std::span<const std::int32_t> near) {
   Mat2 moment = Mat2::Zero(), product = Mat2::Zero();
   for (const std::int32_t b : near) {
     const Vec2 way = p.start[b] - p.start[a];
     moment += way * way.transpose();
-    product += (p.displacement(b) - p.displacement(a)) * way.transpose();
+    product += (moved(p, b) - moved(p, a)) * way.transpose();
   }
   const double trace = moment.trace();
   if (!(moment.determinant() > 1e-3 * trace * trace)) return Mat2::Zero();
@@ -33,7 +36,7 @@ double usual_difference(const Model& model) {
   double largest = 0;
   Vec2 low = p.start[0], high = low;
   for (std::size_t a = 0; a < p.size(); ++a) {
-    largest = std::max(largest, p.displacement(a).squaredNorm());
+    largest = std::max(largest, moved(p, a).squaredNorm());
     low = low.cwiseMin(p.start[a]), high = high.cwiseMax(p.start[a]);
   }
   return std::sqrt(largest) * model.spacing / (high - low).maxCoeff();
@@ -62,11 +65,11 @@ Zigzag measure_zigzag(const Model& model) {
       continue;  // gradients exact for quadratics
     Vec2 foretold = Vec2::Zero();
     for (const std::int32_t b : list) {
-      foretold += p.displacement(b) - 0.5 * (gradients[a] + gradients[b]) * (p.start[b] - p.start[a]);
-      difference[a] += (p.displacement(b) - p.displacement(a)).squaredNorm();
+      foretold += moved(p, b) - 0.5 * (gradients[a] + gradients[b]) * (p.start[b] - p.start[a]);
+      difference[a] += (moved(p, b) - moved(p, a)).squaredNorm();
     }
     const auto count = static_cast<double>(list.size());
-    zigzag[a] = (p.displacement(a) - foretold / count).norm() / of_alternating_rows;
+    zigzag[a] = (moved(p, a) - foretold / count).norm() / of_alternating_rows;
     difference[a] /= count;
   }
 

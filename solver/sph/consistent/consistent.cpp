@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/sph/kernel/cubic_spline.hpp"
-#include "solver/sph/neighbours/neighbour_list.hpp"
+#include "solver/space/parallel.hpp"
 
 namespace porosph {
 namespace {
@@ -23,15 +22,14 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       formulation_(formulation),
       kernels_(consistent_kernels(units)),
       soils_(model),
+      surroundings_(model),
       control_{
           .rho_c = controlled_rho_c(model), .viscosity = 0, .cells_are_cut = cells_are_cut(model.particles)} {
   control_.viscosity = formulation.zero_energy_control * control_.rho_c * model.smoothing_length;
 }
 
 void ConsistentDynamics::prepare() {
-  const bool close = since_.travel > 0.05 * model_.spacing && strangers_are_near();
-  const bool due = !reference_.made() || since_.strain > formulation_.refresh_strain || close;
-  if (!due) return;
+  if (reference_.made() && !strangers_are_near() && !is_deformed()) return;
   if (!reference_.made())
     flow_ = FlowingSoil(model_, control_.viscosity);
   else if (flow_.active())
@@ -50,8 +48,8 @@ void ConsistentDynamics::rebuild_reference() {
     formulation.closed_gradients = false;
     if (formulation.zero_energy_stiffness < 0) formulation.zero_energy_stiffness = 0;
   }
-  reference_ = make_reference(model_, formulation);
-  counts.searches += 1;
+  reference_ = make_reference(model_, formulation, surroundings_.find(model_));
+  counts.searches = surroundings_.searches();
   counts.closures += reference_.closed() ? 1 : 0;
   own_sides_ = find_own_sides(reference_, model_);
   soils_.set_own_sides(own_sides_.place);
@@ -86,21 +84,26 @@ void ConsistentDynamics::connect_arrays() {
   fluxes_.connect(arrays_, reference_);
 }
 
-/// True when two particles came closer than the kernel's support, by a margin, without being neighbours.
 bool ConsistentDynamics::strangers_are_near() {
+  if (since_.travel <= 0.05 * model_.spacing) return false;
   since_.travel = 0;
-  const auto& position = model_.particles.position;
-  const std::size_t n = position.size();
-  const NeighbourList now =
-      find_neighbours(position, n, CubicSpline<2>(model_.smoothing_length).support() - 0.2 * model_.spacing);
-  ++counts.searches;
-  bool found = false;
-#pragma omp parallel for schedule(static) reduction(|| : found)
-  for (std::size_t a = 0; a < n; ++a)
-    for (const std::int32_t b : now.of(a))
-      found = found || (!reference_.stencils.are_neighbours(static_cast<std::int32_t>(a), b) &&
-                        model_.visibility.sees(static_cast<std::int32_t>(a), b, model_.particles));
+  const bool found = surroundings_.strangers_are_near(model_, reference_.stencils);
+  counts.searches = surroundings_.searches();
   return found;
+}
+
+/// Where soil flows, single particles at its tip are strained much more than the others. As long as they are
+/// few they may wait, up to a larger strain.
+bool ConsistentDynamics::is_deformed() const {
+  constexpr double few = 0.02, larger = 2.5;
+  const double limit = formulation_.refresh_strain;
+  if (since_.strain <= limit) return false;
+  if (!flow_.active() || since_.strain > larger * limit) return true;
+  const std::size_t n = model_.particles.size();
+  const double deformed = deterministic_sum(n, [&](std::size_t a) {
+    return (fluxes_.deformation(a) - Mat2::Identity()).cwiseAbs().maxCoeff() > limit ? 1.0 : 0.0;
+  });
+  return deformed > few * static_cast<double>(n);
 }
 
 /// Carries all particles over a step dt with the velocities taken; dt = 0 only writes the fluxes.
@@ -126,7 +129,10 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
-  if (flow_.active()) flow_.leave_out_walls(reference_, model_.particles, out);
+  if (flow_.active()) {
+    flow_.leave_out_walls(reference_, model_.particles, out);
+    flow_.sample_control(reference_, model_.particles);
+  }
   spring_.soften_pairs(
       reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
 }
@@ -154,7 +160,10 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 }
 
 void ConsistentDynamics::strain(double dt) {
-  if (flow_.active()) flow_.diffuse_stress(reference_, model_, dt);
+  if (flow_.active()) {
+    flow_.count_control(model_.particles, dt);
+    flow_.diffuse_stress(reference_, model_, dt);
+  }
   fluxes_.take_velocities(reference_, model_.particles);
   const LargestChange largest = strain_all(dt);
   since_.strain = largest.strain;

@@ -37,6 +37,7 @@ class ConsistentDynamics final : public Dynamics {
   void rebuild_reference();
   void connect_arrays();
   bool strangers_are_near();
+  bool is_deformed() const;
   LargestChange strain_all(double dt);
   Mat2 own_strain(std::size_t particle) const;
 
@@ -54,6 +55,7 @@ class ConsistentDynamics final : public Dynamics {
   FormulationCase formulation_;
   const ConsistentKernels& kernels_;
   SoilViews soils_;
+  Surroundings surroundings_;
   Control control_;
   ReferenceConfiguration reference_;
   OwnSides own_sides_;

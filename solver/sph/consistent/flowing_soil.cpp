@@ -5,8 +5,6 @@
 
 #include "solver/space/parallel.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
-#include "solver/sph/kernel/cubic_spline.hpp"
-#include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
 namespace {
@@ -14,7 +12,8 @@ namespace {
 using Vec4 = Eigen::Vector4d;
 using Gradient4 = Eigen::Matrix<double, 4, 2>;
 
-constexpr int fewest_neighbours = 7;  // of the soil: with fewer a particle needs the wall to be held
+constexpr int steps_between_samples = 16;  // of the control's work
+constexpr int fewest_neighbours = 7;       // of the soil: with fewer a particle needs the wall to be held
 
 Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
@@ -30,14 +29,19 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   const Particles& p = model.particles;
   rest_density_.resize(p.size());
   for (std::size_t a = 0; a < p.size(); ++a)
-    rest_density_[a] = p.density[a] * std::exp(p.stress[a].mean() / model.soils[p.soil[a]].bulk_modulus());
+    rest_density_[a] = p.density[a] * std::exp(p.stress[a].mean() / model.soils[p.soil[a]].bulk_modulus() +
+                                               model.soils[p.soil[a]].plastic_dilation(p, a));
   viscosity_.assign(p.size(), control_viscosity);
   shear_rate_.assign(p.size(), 0);
 }
 
 void FlowingSoil::settle(Model& model) {
   has_flowed_ = true;
-  even_out(model);
+  Particles& p = model.particles;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    p.position[a] += moves_[a];
+    work_.shift -= p.mass[a] * model.gravity.dot(moves_[a]);
+  }
   update_density(model);
 }
 
@@ -54,40 +58,23 @@ void FlowingSoil::update_density(Model& model) const {
 
 /// Inside the soil down the gradient of sum V W (Lind et al. 2012), not near its surface; and pairs that are
 /// nearer than half of the spacing apart, also from their images.
-void FlowingSoil::even_out(Model& model) {
-  constexpr double strength = 0.5, farthest = 0.02, inside = 0.95, nearest = 0.5, share = 0.1;
-  Particles& p = model.particles;
-  const CubicSpline<2> kernel(model.smoothing_length);
-  const std::size_t n = p.size();
-  const auto [points, ghosts, list] = seen_neighbours(model, kernel);
-  std::vector<Vec2> moves(n, Vec2::Zero());
-  const double dx = model.spacing, h2 = model.smoothing_length * model.smoothing_length;
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    if (!model.soils[p.soil[a]].flows()) continue;
-    Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
-    Mat2 sum = Mat2::Zero();
-    for (const std::int32_t b : list.of(a)) {
-      const std::size_t root = static_cast<std::size_t>(b) < n ? b : ghosts.root(b - n);
-      const Vec2 way = points[b] - points[a];
-      const double distance = way.norm(), volume = p.volume(root) / p.fill[root];
-      const Vec2 g = -volume * kernel.slope(distance) * way;
-      crowd += g, sum += g * way.transpose();
-      if (distance > 0 && distance < nearest * dx) apart -= share * (nearest * dx / distance - 1) * way;
-    }
-    const double half = 0.5 * (sum(0, 0) - sum(1, 1));
-    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::hypot(half, sum(0, 1));
-    if (least > inside) {
-      const Vec2 move = -strength * h2 * crowd;
-      const double far = move.norm();
-      apart += far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move;
-    }
-    moves[a] = apart;
-  }
-  for (std::size_t a = 0; a < n; ++a) {
-    p.position[a] += moves[a];
-    work_.shift -= p.mass[a] * model.gravity.dot(moves[a]);
-  }
+Vec2 FlowingSoil::evening_move(const ReferenceConfiguration& r, const Model& model, std::int32_t a) const {
+  constexpr double strength = 0.5, farthest = 0.02, inside = 0.95, share = 0.1;
+  const double dx = model.spacing, nearest = 0.5 * dx, h = model.smoothing_length;
+  Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
+  Mat2 sum = Mat2::Zero();
+  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+    const Vec2 way = r.points[b] - r.points[a];
+    crowd += Vec2(g.x, g.y), sum += Vec2(g.x, g.y) * way.transpose();
+    if (const double squared = way.squaredNorm(); squared < nearest * nearest && squared > 0)
+      apart -= share * (nearest / std::sqrt(squared) - 1) * way;
+  });
+  const double half = 0.5 * (sum(0, 0) - sum(1, 1));
+  const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::hypot(half, sum(0, 1));
+  if (least <= inside) return apart;
+  const Vec2 move = -strength * h * h * crowd;
+  const double far = move.norm();
+  return apart + (far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move);
 }
 
 void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
@@ -96,6 +83,7 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   at_walls_.clear();
   blind_.assign(n, 0);
   correction_.resize(n);
+  moves_.assign(n, Vec2::Zero());
   std::vector<std::uint8_t> is_at_wall(n);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
@@ -111,6 +99,7 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     });
     correction_[a] = ghosts ? correction_matrix(sum) : r.correction[a];
     blind_[a] = is_at_wall[a] && soil >= fewest_neighbours;
+    if (model.soils[model.particles.soil[a]].flows()) moves_[a] = evening_move(r, model, a);
   }
   for (std::int32_t a = 0; a < n; ++a)
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
@@ -215,13 +204,58 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
   }
 }
 
+/// The control's part of what the kernels and leave_out_walls() sum.
+void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particles& p) {
+  sample_.acceleration.clear();
+  if (sample_.steps % steps_between_samples != 0) return;
+  const auto n = static_cast<std::int32_t>(r.particles());
+  std::vector<Mat2> gradient(n);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a)
+    gradient[a] = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+  sample_.acceleration.assign(n, Vec2::Zero());
+  sample_.velocity = p.velocity;
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) {
+    Vec2 force = Vec2::Zero();
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const Vec2 way(g.x, g.y);
+      if (b < n) {
+        force += (viscosity_[a] + viscosity_[b]) * g.w * (p.velocity[b] - p.velocity[a]) -
+                 (viscosity_[a] * gradient[a] + viscosity_[b] * gradient[b]) * way;
+        return;
+      }
+      const std::int32_t root = r.ghosts.root(b - n);
+      const Vec2 v = r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[root]));
+      if (!is_fixed_image(r, b))
+        force +=
+            (viscosity_[a] + viscosity_[b]) * g.w * (v - p.velocity[a]) -
+            (viscosity_[a] * gradient[a] + viscosity_[b] * r.ghosts.flux_from_root(b - n, gradient[root])) *
+                way;
+      else if (!blind_[a])
+        force += 2 * viscosity_[a] * (g.w * (v - p.velocity[a]) - gradient[a] * way);
+    });
+    sample_.acceleration[a] = force / (p.fill[a] * r.density[a]);
+  }
+}
+
+void FlowingSoil::count_control(const Particles& p, double dt) {
+  ++sample_.steps;
+  if (sample_.acceleration.empty()) return;
+  work_.control -=
+      steps_between_samples * dt * deterministic_sum(p.size(), [&](std::size_t a) {
+        return 0.5 * p.mass[a] * sample_.acceleration[a].dot(sample_.velocity[a] + p.velocity[a]);
+      });
+}
+
 void FlowingSoil::visit(StateArchive& state) {
   if (!active()) return;
   state.array("rest_density", rest_density_);
   state.array("control_viscosity", std::span(viscosity_).first(rest_density_.size()));
   state.array("shear_rate", shear_rate_);
   state.value("has_flowed", has_flowed_);
-  for (double* work : {&work_.plastic, &work_.viscous, &work_.diffusion, &work_.shift})
+  state.value("control_samples", sample_.steps);
+  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
     state.value("work", *work);
 }
 

@@ -23,12 +23,13 @@ class FlowingSoil {
   bool active() const { return !rest_density_.empty(); }
   bool has_flowed() const { return has_flowed_; }  ///< since the start a reference has been rebuilt
 
-  /// Before a reference is rebuilt: density by the law, and particles moved to even out their arrangement.
+  /// Before a reference is rebuilt: density by the law, and the moves that even out the arrangement.
   void settle(Model& model);
-  /// After that: what sums over the soil alone need.
+  /// After that: these moves as the new reference has them, and what sums over the soil alone need.
   void take(const ReferenceConfiguration& reference, const Model& model);
 
-  /// Diffuses over a step dt [s] what of the stress is not linear, with D = 10 h^2 times the shear rate.
+  /// Diffuses over a step dt [s] what of the stress is not linear, with D = 10 h^2 times the shear rate of
+  /// soil that yields.
   void diffuse_stress(const ReferenceConfiguration& reference, Model& model, double dt);
 
   /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
@@ -41,23 +42,30 @@ class FlowingSoil {
                        std::span<Vec2> accelerations) const;
 
   std::vector<double>& viscosity() { return viscosity_; }  ///< mu of the control [Pa s]; and ghost
-  double* shear_rate() { return shear_rate_.data(); }      ///< of the last step, per particle [1/s]
+  double* shear_rate() { return shear_rate_.data(); }      ///< as in FlowView
 
   /// Energy since the start [J/m].
   struct Work {
     double plastic = 0;    ///< dissipated by the laws
     double viscous = 0;    ///< by bulk viscosity
+    double control = 0;    ///< by the zero-energy control
     double diffusion = 0;  ///< lost from the elastic energy by the diffusion of stress
     double shift = 0;      ///< gravity's energy gained by moving particles
   };
   const Work& work() const { return work_; }
   void add_dissipation(double plastic, double viscous) { work_.plastic += plastic, work_.viscous += viscous; }
 
+  /// The work of the control is counted in one of some steps, for all of them: what it accelerates, with the
+  /// velocities before, when forces have been summed ...
+  void sample_control(const ReferenceConfiguration& reference, const Particles& particles);
+  /// ... and its work once these have changed the velocities, over a step dt [s].
+  void count_control(const Particles& particles, double dt);
+
   void visit(StateArchive& state);
 
  private:
   void update_density(Model& model) const;
-  void even_out(Model& model);
+  Vec2 evening_move(const ReferenceConfiguration& reference, const Model& model, std::int32_t a) const;
   Mat2 own_gradient(const ReferenceConfiguration& reference, const Particles& particles,
                     std::int32_t a) const;
   Mat2 gradient_with_walls(const ReferenceConfiguration& reference, const Particles& particles,
@@ -65,9 +73,15 @@ class FlowingSoil {
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
   std::vector<double> viscosity_, shear_rate_;
+  std::vector<Vec2> moves_;             ///< that even out the arrangement of the reference [m]
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those
+  struct ControlSample {
+    std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
+    std::int64_t steps = 0;                    ///< counted so far
+  };
+  ControlSample sample_;
   bool has_flowed_ = false;
   Work work_;
 };

@@ -83,14 +83,19 @@ struct PairStencilsIn {
 
 using PairStencils = PairStencilsIn<Plane>;
 
-/// Those within the kernel's support of the first `count` points.
+/// How far away neighbours may be [m]. With h = dx they lie at the rim of the support, where the kernel's
+/// slope is zero. Left out, so that round-off does not give some particles more of them than others, which
+/// would share no stencil.
+template <int dim>
+double stencil_reach(const CubicSpline<dim>& kernel) {
+  return (1 - 1e-9) * kernel.support();
+}
+
+/// Those within reach of the first `count` points.
 template <class Vector, int dim>
 NeighbourList stencil_neighbours(const std::vector<Vector>& points, std::size_t count,
                                  const CubicSpline<dim>& kernel) {
-  // With h = dx neighbours lie at the rim of the support, where the kernel's slope is zero. Left out, so that
-  // round-off does not give some particles more of them than others, which would share no stencil.
-  constexpr double inside = 1 - 1e-9;
-  return find_neighbours(points, count, inside * kernel.support());
+  return find_neighbours(points, count, stencil_reach(kernel));
 }
 
 /// The stencils of the first points, one for each list of neighbours; `volumes` of all points [m2, m3 in a

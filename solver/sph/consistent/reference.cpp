@@ -16,12 +16,6 @@ void make_volumes(const Particles& p, ReferenceConfiguration& r) {
   r.ghosts.fill<Mirrors::scalar>(r.volume);
 }
 
-Ghosts ghosts_behind_walls(const Model& model, double range, std::vector<Vec2>& points) {
-  const std::size_t n = points.size();
-  if (model.visibility.everywhere()) return {model.walls, 0, model.walls.size(), range, points};
-  return {model.walls, model.visibility.walls().append_seen_images(points), n};
-}
-
 /// L of eq. (10), of the particles.
 std::vector<Mat2> corrections(const ReferenceConfiguration& r, bool corrected) {
   std::vector<Mat2> correction(r.particles(), Mat2::Identity());
@@ -52,27 +46,6 @@ void close(const Model& model, ReferenceConfiguration& r, std::vector<Mat2>& cor
 
 }  // namespace
 
-SeenNeighbours seen_neighbours(const Model& model, const CubicSpline<2>& kernel) {
-  const Particles& p = model.particles;
-  const auto n = static_cast<std::int32_t>(p.size());
-  SeenNeighbours all{.points = p.position, .ghosts = {}, .list = {}};
-  all.ghosts = ghosts_behind_walls(model, kernel.support(), all.points);
-  all.list = stencil_neighbours(all.points, p.size(), kernel);
-  if (model.visibility.everywhere()) return all;
-  const WallPaths& walls = model.visibility.walls();
-  const std::vector<Vec2>& points = all.points;
-  std::vector<std::vector<std::int32_t>> near(n);
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) near[a] = walls.near(points[a]);
-  all.list = kept(all.list, [&](std::int32_t a, std::int32_t b) {
-    if (b < n) return walls.clear(points[a], points[b], near[a]) && model.visibility.past_slits(a, b, p);
-    const std::size_t ghost = b - n;
-    return walls.leads(points[a], points[b], ghost, all.ghosts.images(), n, near[a]) &&
-           model.visibility.past_slits(a, all.ghosts.root(ghost), p);
-  });
-  return all;
-}
-
 ReferenceView ReferenceConfiguration::view(const Particles& p) {
   ReferenceView v{};
   v.stencils = &stencils;
@@ -83,10 +56,10 @@ ReferenceView ReferenceConfiguration::view(const Particles& p) {
   return v;
 }
 
-ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation) {
+ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation,
+                                      SeenNeighbours seen) {
   const CubicSpline<2> kernel(model.smoothing_length);
   ReferenceConfiguration r;
-  SeenNeighbours seen = seen_neighbours(model, kernel);
   r.points = std::move(seen.points), r.ghosts = std::move(seen.ghosts);
   make_volumes(model.particles, r);
   r.stencils =

@@ -8,6 +8,7 @@
 #include "solver/model/model.hpp"
 #include "solver/sph/consistent/pair_stencils.hpp"
 #include "solver/sph/consistent/plane_tensors.hpp"
+#include "solver/sph/consistent/surroundings.hpp"
 #include "solver/sph/kernels/consistent_kernels.hpp"
 
 namespace porosph {
@@ -29,16 +30,8 @@ struct ReferenceConfiguration {
   ReferenceView view(const Particles& particles);
 };
 
-/// Particles, then ghosts, where they are now, and those that each particle's kernel reaches and that it
-/// sees.
-struct SeenNeighbours {
-  std::vector<Vec2> points;  ///< [m]
-  Ghosts ghosts;
-  NeighbourList list;
-};
-SeenNeighbours seen_neighbours(const Model& model, const CubicSpline<2>& kernel);
-
-/// That of the particles where they are now.
-ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation);
+/// That of the particles where they are now, from what they see there.
+ReferenceConfiguration make_reference(const Model& model, const FormulationCase& formulation,
+                                      SeenNeighbours seen);
 
 }  // namespace porosph

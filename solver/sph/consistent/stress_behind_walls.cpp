@@ -4,7 +4,10 @@
 
 namespace porosph {
 
-StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r) {
+StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, bool flows) {
+  // At rest no force is as stiff as what is extrapolated. The stress of a single row that slides over a wall
+  // doubles in every step with a gradient across the row that its unevenness alone decides.
+  const double spans_the_plane = flows ? 0.15 : 0.01;
   const Ghosts& ghosts = r.ghosts;
   std::vector<std::uint8_t> from_extrapolated(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
@@ -18,7 +21,7 @@ StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r) {
     const std::int32_t a = ghosts.root(i);
     if (place[a] < 0) {
       place[a] = static_cast<std::int32_t>(stencils_.size());
-      stencils_.push_back(one_sided(r, a, from_extrapolated));
+      stencils_.push_back(one_sided(r, a, from_extrapolated, spans_the_plane));
     }
     continued_.push_back(continuation(r, i, place[a]));
   }
@@ -43,9 +46,9 @@ StressBehindWalls::Continued StressBehindWalls::continuation(const ReferenceConf
   return c;
 }
 
-StressBehindWalls::OneSided StressBehindWalls::one_sided(
-    const ReferenceConfiguration& r, std::int32_t a,
-    const std::vector<std::uint8_t>& from_extrapolated) const {
+StressBehindWalls::OneSided StressBehindWalls::one_sided(const ReferenceConfiguration& r, std::int32_t a,
+                                                         const std::vector<std::uint8_t>& from_extrapolated,
+                                                         double spans_the_plane) {
   const auto n = static_cast<std::int32_t>(r.particles());
   OneSided stencil{.particle = a, .neighbours = {}, .gradient = {}};
   Mat2 sum = Mat2::Zero();
@@ -56,7 +59,7 @@ StressBehindWalls::OneSided StressBehindWalls::one_sided(
     stencil.gradient.push_back(g);
     sum += g * (r.points[b] - r.points[a]).transpose();
   });
-  const Mat2 correction = correction_matrix(sum, 0.01);  // it extrapolates, no force is as stiff as it
+  const Mat2 correction = correction_matrix(sum, spans_the_plane);
   for (Vec2& g : stencil.gradient) g = correction * g;
   return stencil;
 }

@@ -13,7 +13,8 @@ namespace porosph {
 class StressBehindWalls {
  public:
   StressBehindWalls() = default;
-  explicit StressBehindWalls(const ReferenceConfiguration& reference);
+  /// `flows`: the soil may spread to rows too thin for a gradient across them.
+  StressBehindWalls(const ReferenceConfiguration& reference, bool flows);
 
   /// Fills P of the ghosts: mirrored, or extrapolated where the wall bears weight. `piola`: particles, then
   /// ghosts; of the particles, those that uses() names are read.
@@ -34,8 +35,8 @@ class StressBehindWalls {
     Mat2 turn = Mat2::Identity();  ///< from there to the ghost, through walls that mirror the stress
     bool turned = false;
   };
-  OneSided one_sided(const ReferenceConfiguration& reference, std::int32_t particle,
-                     const std::vector<std::uint8_t>& from_extrapolated) const;
+  static OneSided one_sided(const ReferenceConfiguration& reference, std::int32_t particle,
+                            const std::vector<std::uint8_t>& from_extrapolated, double spans_the_plane);
   static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
                                 std::int32_t stencil);
   void sum_gradients(const std::vector<PlaneTensor>& piola);

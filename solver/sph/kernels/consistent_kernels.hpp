@@ -95,7 +95,7 @@ struct StabilisationView {
 /// soil flows: mu is then the same everywhere.
 struct FlowView {
   double* viscosity;      ///< mu, and ghost [Pa s]
-  double* shear_rate;     ///< gamma [1/s]
+  double* shear_rate;     ///< gamma where the soil yielded in the last step, or else 0 [1/s]
   const double* mass;     ///< [kg/m]
   double length_squared;  ///< h^2 [m2]
   double weight;          ///< g dx [m2/s2]

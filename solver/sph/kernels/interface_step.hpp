@@ -72,7 +72,7 @@ template <SoilLaw Law, Watch watch>
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;
   if (watch == Watch::flow) {
-    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus);
+    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus, yields);
     mu = flow.mu;
     found.plastic += flow.plastic, found.viscous += flow.viscous;
   }

@@ -108,16 +108,16 @@ struct TileStep {
     }
   }
 
-  /// mu of FlowView, and gamma for those who ask.
+  /// mu and gamma of FlowView. A step of no length only writes fluxes: gamma stays.
   [[gnu::always_inline]] double bounded_viscosity(std::int32_t i, const Gradient& g, double density_now,
-                                                  double strength, double sin_phi) const {
+                                                  double strength, double sin_phi, double yielding) const {
     const double gamma = shear_rate_of(g);
     const double least = sin_phi * density_now * weight, k = strength > least ? strength : least;
     // As k / gamma may be too large for a number: compared as products.
     const double inertial = density_now * length_squared * gamma;
     const bool bounded = 0.1 * k < (mu - inertial) * gamma;
     const double bound = 0.1 * k / (bounded ? gamma : 1) + inertial;
-    shear_rate[i] = gamma;
+    shear_rate[i] = dt > 0 ? yielding * gamma : shear_rate[i];
     return viscosity[i] = bounded ? bound : mu;
   }
 
@@ -144,9 +144,10 @@ template <class Space, SoilLaw<Space> Law>
 [[gnu::always_inline]] inline double control_viscosity(const TileStep<Space>& t, std::int32_t i,
                                                        const Law& law, const Symmetric<Space>& s,
                                                        const typename Law::History& q,
-                                                       const GradientIn<Space>& g, double density) {
+                                                       const GradientIn<Space>& g, double density,
+                                                       double yields) {
   if constexpr (YieldingLaw<Law, Space>)
-    return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q));
+    return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q), yields);
   t.shear_rate[i] = 0;
   return t.viscosity[i] = t.mu;
 }
@@ -161,11 +162,11 @@ template <class Space, SoilLaw<Space> Law>
 [[gnu::always_inline]] inline FlowTerms flow_terms(const TileStep<Space>& t, std::int32_t i, const Law& law,
                                                    const Symmetric<Space>& old, const Symmetric<Space>& s,
                                                    const typename Law::History& q, const GradientIn<Space>& g,
-                                                   double density, double modulus) {
+                                                   double density, double modulus, double yields) {
   const double work = 0.5 * t.dt * power(old + s, g);
   const double trace = g.trace(), volume = t.mass[i] / density;
   const double resisted = t.dt * bulk_viscosity(t.bulk_length, std::sqrt(modulus * density), trace) * trace;
-  return {.mu = control_viscosity(t, i, law, s, q, g, density),
+  return {.mu = control_viscosity(t, i, law, s, q, g, density, yields),
           .plastic = volume * (work - law.stored_energy(s) + law.stored_energy(old)),
           .viscous = volume * resisted};
 }
@@ -183,7 +184,9 @@ template <class Space, SoilLaw<Space> Law, Watch watch>
   const GradientIn<Space> gradient = t.gradient(i);
   typename Law::History q = load_history<Law>(history, i);
   const Symmetric<Space> old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
-  if (watch != Watch::nothing) t.yields[i] = departs(s, law.elastic_step(old, gradient, t.dt));
+  const bool watched = watch != Watch::nothing;
+  const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
+  if (watched) t.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
   const GradientIn<Space> f = t.deformed(i);
@@ -191,7 +194,7 @@ template <class Space, SoilLaw<Space> Law, Watch watch>
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;
   if (watch == Watch::flow) {
-    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus);
+    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus, yields);
     mu = flow.mu;
     found.plastic += flow.plastic, found.viscous += flow.viscous;
   }

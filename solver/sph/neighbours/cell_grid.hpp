@@ -35,8 +35,8 @@ class CellGrid {
     sort_points(total);
   }
 
-  /// Calls visit(b) for every point b in the cells around `centre`: all within the cell size, and some beyond
-  /// it.
+  /// Calls visit(b, place) for every point b in the cells around `centre`: all within the cell size, and some
+  /// beyond it.
   template <class Visit>
   void around(const Vec& centre, Visit&& visit) const {
     std::array<std::int64_t, dim> low, high;
@@ -69,7 +69,11 @@ class CellGrid {
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     sorted_.resize(points_.size());
     std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t i = 0; i < points_.size(); ++i) sorted_[next[cell[i]]++] = static_cast<std::int32_t>(i);
+    place_.resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const std::int32_t k = next[cell[i]]++;
+      sorted_[k] = static_cast<std::int32_t>(i), place_[k] = points_[i];
+    }
   }
 
   template <class Visit>
@@ -80,7 +84,8 @@ class CellGrid {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         if (low[0] > high[0]) continue;
         const std::int64_t row = (z * count_[1] + y) * count_[0];
-        for (std::int32_t i = begin_[row + low[0]]; i < begin_[row + high[0] + 1]; ++i) visit(sorted_[i]);
+        for (std::int32_t i = begin_[row + low[0]]; i < begin_[row + high[0] + 1]; ++i)
+          visit(sorted_[i], place_[i]);
       }
     }
   }
@@ -90,6 +95,7 @@ class CellGrid {
   double size_ = 1;
   std::array<std::int64_t, dim> count_{};
   std::vector<std::int32_t> begin_, sorted_;
+  std::vector<Vec> place_;  ///< of those in sorted_
 };
 
 }  // namespace porosph

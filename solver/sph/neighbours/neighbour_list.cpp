@@ -7,32 +7,18 @@
 namespace porosph {
 namespace {
 
-/// Two passes, count then fill, so that particles are searched in parallel and the result does not depend on
-/// threads.
 template <class Vector>
 NeighbourList search(std::span<const Vector> centres, std::span<const Vector> points, double radius,
                      bool skip_self) {
   const CellGrid<Vector::RowsAtCompileTime> grid(points, radius);
-  const auto count = static_cast<std::int64_t>(centres.size());
-  const auto visit = [&](std::int64_t a, auto&& use) {
-    grid.around(centres[a], [&](std::int32_t b) {
-      if ((points[b] - centres[a]).squaredNorm() < radius * radius && !(skip_self && b == a)) use(b);
+  return collected(centres.size(), [&](std::size_t a, std::vector<std::int32_t>& list) {
+    const auto begin = std::ssize(list);
+    const std::int32_t self = skip_self ? static_cast<std::int32_t>(a) : -1;
+    grid.around(centres[a], [&](std::int32_t b, const Vector& place) {
+      if ((place - centres[a]).squaredNorm() < radius * radius && b != self) list.push_back(b);
     });
-  };
-
-  NeighbourList list;
-  list.begin.assign(centres.size() + 1, 0);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t a = 0; a < count; ++a) visit(a, [&](std::int32_t) { ++list.begin[a + 1]; });
-  for (std::int64_t a = 0; a < count; ++a) list.begin[a + 1] += list.begin[a];
-  list.index.resize(static_cast<std::size_t>(list.begin.back()));
-#pragma omp parallel for schedule(static)
-  for (std::int64_t a = 0; a < count; ++a) {
-    auto end = list.index.begin() + list.begin[a];
-    visit(a, [&](std::int32_t b) { *end++ = b; });
-    std::sort(list.index.begin() + list.begin[a], end);
-  }
-  return list;
+    std::sort(list.begin() + begin, list.end());
+  });
 }
 
 }  // namespace

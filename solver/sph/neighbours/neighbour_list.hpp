@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "solver/space/parallel.hpp"
 #include "solver/space/tensor.hpp"
 
 namespace porosph {
@@ -19,16 +21,39 @@ struct NeighbourList {
   }
 };
 
+/// The lists of particles 0 to count - 1, to which append(a, list) adds that of particle a. Each thread makes
+/// those of consecutive particles, which are put together in their order.
+template <class Append>
+NeighbourList collected(std::size_t count, Append&& append) {
+  NeighbourList list;
+  list.begin.assign(count + 1, 0);
+  std::vector<std::vector<std::int32_t>> of_thread(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+  {
+    std::vector<std::int32_t>& mine = of_thread[static_cast<std::size_t>(omp_get_thread_num())];
+    const auto [first, last] = thread_range(count);
+    for (std::size_t a = first; a < last; ++a) {
+      const auto before = std::ssize(mine);
+      append(a, mine);
+      list.begin[a + 1] = std::ssize(mine) - before;
+    }
+  }
+  for (std::size_t a = 0; a < count; ++a) list.begin[a + 1] += list.begin[a];
+  list.index = std::move(of_thread[0]);
+  for (std::size_t k = 1; k < of_thread.size(); ++k) {
+    list.index.insert(list.index.end(), of_thread[k].begin(), of_thread[k].end());
+    of_thread[k] = {};
+  }
+  return list;
+}
+
 /// Only those for which keep(a, b) holds.
 template <class Keep>
 NeighbourList kept(const NeighbourList& list, Keep&& keep) {
-  NeighbourList out;
-  for (std::size_t a = 0; a + 1 < list.begin.size(); ++a) {
+  return collected(list.begin.size() - 1, [&](std::size_t a, std::vector<std::int32_t>& out) {
     for (const std::int32_t b : list.of(a))
-      if (keep(static_cast<std::int32_t>(a), b)) out.index.push_back(b);
-    out.begin.push_back(std::ssize(out.index));
-  }
-  return out;
+      if (keep(static_cast<std::int32_t>(a), b)) out.push_back(b);
+  });
 }
 
 /// The neighbours within `radius` [m], among all points, of the first `count` points.

@@ -4,6 +4,8 @@
 #include <random>
 
 #include "render/bands.hpp"
+#include "render/canvas_device.hpp"
+#include "render/field_marks.hpp"
 #include "render/run/delaunay.hpp"
 #include "render/run/soil_mesh.hpp"
 #include "solver/case/shapes.hpp"
@@ -39,6 +41,17 @@ TriangleField square(int cells, Value value) {
     }
   return field;
 }
+
+/// Remembers where texts are put.
+class TextsOnly : public CanvasDevice {
+ public:
+  std::vector<Pixel> texts;
+  void polyline(std::span<const Pixel>, Colour, double) override {}
+  void polygon(std::span<const Pixel>, const Fill&) override {}
+  void text(Pixel at, const std::string&, const TextStyle&) override { texts.push_back(at); }
+  void clip(const Box&) override {}
+  void unclip() override {}
+};
 
 double linear(Pixel p) { return 2 * p.x - p.y; }
 double radius(Pixel p) { return std::hypot(p.x - 5, p.y - 5); }
@@ -220,4 +233,22 @@ TEST_CASE("soil that is torn apart has no triangles across, and its particles ar
   for (std::size_t i = 0; i < at.size(); ++i)
     if (std::abs(at[i].x() - 3) > 0.5) CHECK_FALSE(mesh.uncovered()[i]);
   CHECK(std::ranges::count(mesh.uncovered(), true) > 5);
+}
+
+TEST_CASE("labels of isolines keep off what is taken") {
+  TriangleField field = square(4, [](Pixel p) { return p.y; });
+  for (Pixel& p : field.points) p = {40 * p.x, 40 * p.y};  // 400 pixels wide
+  const std::vector<double> levels = {5};
+  const Box frame{0, 0, 400, 400}, probe{150, 180, 100, 40};
+  const auto labelled = [&](std::vector<Box> taken) {
+    TextsOnly device;
+    Canvas canvas(device);
+    draw_isolines(canvas, frame, field, levels, std::move(taken));
+    REQUIRE_FALSE(device.texts.empty());
+    return device.texts.back();
+  };
+  CHECK(labelled({}).x == Approx(200).margin(20));
+  const Pixel moved = labelled({probe});
+  CHECK(moved.y == Approx(200).margin(8));
+  CHECK((moved.x < probe.x || moved.x > probe.right()));
 }

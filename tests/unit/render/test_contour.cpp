@@ -224,3 +224,21 @@ TEST_CASE("a support that reaches beyond the soil stands beside it") {
   figure.panels[0].scenery.boundaries = {{BoundaryKind::roller, {2, 0}, {2, 4}}};
   CHECK(soil_pixels() == bare);
 }
+
+TEST_CASE("each panel alone has the range and the place that it has among the others") {
+  ContourFigure figure = figure_of(block(1, 1, 1.));
+  figure.panels.push_back(figure.panels[0]);
+  figure.panels[1].particles.values = {100};
+  for (Point& p : figure.panels[1].particles.positions) p.x() += 1;
+  const std::vector<std::filesystem::path> paths = {picture_path("left.png"), picture_path("right.png")};
+  save_each_panel(figure, 500, paths);
+  const Image left = Image(paths[0]), right = Image(paths[1]);
+  CHECK(left.width() == 500);
+  CHECK(right.width() == 500);
+  CHECK(left.height() == right.height());
+  const Patch a = left.find(colour_of(0, {0, 100}), 500 - bar_space),
+              b = right.find(colour_of(100, {0, 100}), 500 - bar_space);
+  CHECK(a.pixels > 1000);
+  CHECK(b.left - a.left == Approx(a.width()).margin(2));
+  CHECK(b.bottom == a.bottom);
+}

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "solver/analysis/exact_state.hpp"
+#include "solver/analysis/grid_values.hpp"
 #include "solver/reference/exact/finite_strain_column.hpp"
 #include "solver/run/reference_errors.hpp"
 #include "tests/box_of_soil.hpp"
@@ -102,6 +103,61 @@ TEST_CASE("a section is exact for linear fields from wall to surface", "[section
       CHECK(slanting[0].starts.front().x() == Approx(0).margin(1e-8));
       CHECK(slanting[0].starts.back().x() == Approx(2).margin(1e-8));
     }
+}
+
+TEST_CASE("a grid is exact for linear fields up to walls and surfaces, and ends where soil ends",
+          "[section]") {
+  for (const double spacing : {0.1, 0.25})
+    for (const double noise : {0.0, 0.15}) {
+      CAPTURE(spacing, noise);
+      Case scene = two_soils(spacing);
+      scene.soils[1].polygon = box_outline(0, 1, 1, 2);  // no soil in the upper right quarter
+      const GridValues grid = values_on_grid(frame_of(scene, noise), &scene, 0.08, {});
+      REQUIRE(grid.in_soil.size() == static_cast<std::size_t>(grid.columns * grid.rows));
+      const auto yy = values_of(grid.values, {"EffectiveStress", "YY"});
+      double worst = 0;
+      int wrong = 0;
+      std::size_t next = 0;
+      for (std::size_t node = 0; node < grid.in_soil.size(); ++node) {
+        const Point p = grid.low + grid.spacing * Point(static_cast<double>(node % grid.columns),
+                                                        static_cast<double>(node / grid.columns));
+        const Point start = (Mat2::Identity() + deformation).inverse() * p;
+        const double below = std::max(0.0, start.x() - 1), margin = 0.03 * spacing;
+        const bool inside = start.x() > margin && start.x() < 2 - margin && start.y() > margin &&
+                            start.y() < (below > 0 ? 1 : 2) - margin && std::abs(start.x() - 1) > margin;
+        const bool outside = start.x() < -margin || start.x() > 2 + margin || start.y() < -margin ||
+                             start.y() > 2 + margin || (start.x() > 1 + margin && start.y() > 1 + margin);
+        wrong += inside && !grid.in_soil[node];
+        wrong += outside && grid.in_soil[node];
+        if (!grid.in_soil[node]) continue;
+        if (std::abs(start.y() - 1) > margin)  // between soils either one's value is right
+          worst = std::max(worst, std::abs(yy[next] - stress_at(p, start.y() > 1).yy));
+        ++next;
+      }
+      CHECK(wrong == 0);
+      CHECK(worst < 1e-7);
+      CHECK(next == grid.values.points.size() / 3);
+    }
+  const Case scene = two_soils(0.25);
+  CHECK_THROWS_WITH(values_on_grid(frame_of(scene), &scene, 1e-5, {}), Contains("is too large"));
+  CHECK_THROWS_AS(values_on_grid(frame_of(scene), &scene, 0, {}), std::invalid_argument);
+  CHECK_THROWS_WITH(values_on_grid(frame_of(scene), &scene, 0.1, {{"Head", ""}}),
+                    Contains("no field 'Head'"));
+}
+
+TEST_CASE("discharge through a section is that of a uniform flow, whatever way the line goes", "[section]") {
+  Case scene = box_of_soil(1, 1, 0.1);
+  scene.soils[0].polygon = box_outline(0, 0, 2, 3);
+  Frame frame = frame_of(scene, 0.1);
+  std::vector<double> flow;
+  for (std::size_t i = 0; i < frame.points.size() / 3; ++i) flow.insert(flow.end(), {2e-6, -1e-6, 0});
+  frame.fields.push_back({"DarcyVelocity", {"X", "Y", "Z"}, flow});
+  const std::vector<Point> upwards = {{1, -1}, {1, 5}};
+  const auto pieces = cut(frame, &scene, upwards, 50, {});
+  const double height = pieces[0].along.back() - pieces[0].along.front();
+  CHECK(flow_through(pieces) == Approx(-2e-6 * height));  // to the right of a line that goes up
+  const auto bent = cut(frame, &scene, {{1, 1}, {1.3, 1.7}, {0.6, 2.1}}, 50, {});
+  CHECK(flow_through(bent) == Approx(-2e-6 * (2.1 - 1) - 1e-6 * (0.6 - 1)));
 }
 
 TEST_CASE("a section may run along a wall", "[section]") {

@@ -23,8 +23,12 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:10:18: key 'soil[0].poissons_ratio' = 0.5: must be > -1 and < 0.5"},
       {"end = 1", "end = nan", "box.toml:19:7: key 'time.end' = nan: must be finite"},
       {"end = 1", "end = inf", "box.toml:19:7: key 'time.end' = inf: must be finite"},
-      {"end = 1", "end = '1'", "box.toml:19:7: key 'time.end' = \"1\": must be a number in s"},
-      {"end = 1", "end = true", "box.toml:19:7: key 'time.end' = true: must be a number in s"},
+      {"end = 1", "end = '1'",
+       "box.toml:19:7: key 'time.end' = \"1\": must be a number in s"
+       ", or text of a number and a unit; allowed are s, ms, min, h, d, yr"},
+      {"end = 1", "end = true",
+       "box.toml:19:7: key 'time.end' = true: must be a number in s"
+       ", or text of a number and a unit; allowed are s, ms, min, h, d, yr"},
       {"end = 1", "", "box.toml:18:1: key 'time.end': is missing: When the run ends."},
       {"[time]\nend = 1\n", "", "box.toml:1:1: key 'time.end': is missing: When the run ends."},
       {"end = 1", "end = 1\ncorant = 1",
@@ -46,7 +50,9 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:15:8: key 'boundary[0].from': must be two numbers [x, y] in m"},
       {"[4, 2]", "[4, 2e8]",
        "box.toml:8:32: key 'soil[0].polygon[2][1]' = 200000000: must be >= -1e+08 and <= 1e+08 m"},
-      {"[4, 2]", "[4, '2']", "box.toml:8:32: key 'soil[0].polygon[2][1]' = \"2\": must be a number in m"},
+      {"[4, 2]", "[4, '2']",
+       "box.toml:8:32: key 'soil[0].polygon[2][1]' = \"2\": must be a number in m"
+       ", or text of a number and a unit; allowed are m, km, cm, mm, ft, in"},
       {"[4, 0], [4, 2], [0, 2]]", "[4, 0]]",
        "box.toml:8:11: key 'soil[0].polygon': must be a list of 3 to 10000 points [x, y]"},
       {"spacing = 0.5", "spacing = 0.5\nsmoothing_ratio = 4",

@@ -82,6 +82,11 @@ TEST_CASE("an axis is given on the command line", "[sweep]") {
   CHECK(axis.title == "soil.0.polygon");
   REQUIRE(axis.values.size() == 2);
   CHECK(axis.values[1].settings == std::vector<std::string>{"soil.0.polygon=[[0,0],[2,0],[2,2]]"});
+  const SweepAxis stiffness = parse_axis("soil.0.youngs_modulus=5 MPa,\"0.01 GPa\"");
+  for (const auto& [value, modulus] : {std::pair{0, 5e6}, {1, 1e7}})
+    CHECK(read_case(POROSPH_SOURCE_DIR "/cases/verification/column.toml", stiffness.values[value].settings)
+              .soils[0]
+              .youngs_modulus == modulus);
   CHECK_THROWS_AS(parse_axis("time.courant"), CaseError);
   CHECK_THROWS_AS(parse_axis("time.courant=1,,2"), CaseError);
 }

@@ -110,6 +110,40 @@ TEST_CASE("The causes that are known are named") {
              Contains("is only 3.3 spacings thick") && Contains("within the kernel's reach of the outline"));
 }
 
+TEST_CASE("Lattices that do not fit, and corners, are named by what they do") {
+  Case scene = scene_of_particles();
+  const auto warning = [&](Point where) {
+    scene.soils[0].poissons_ratio = 0.3;
+    const Particles p = build_model(scene).particles;
+    FemCheck check;
+    check.limit = 0.05;
+    check.soils["sand"] = {.particles = 1, .left_out = 0, .strain = 0, .fields = {}};
+    check.soils["sand"].fields["Displacement_X"] = {
+        .relative_l2 = 0.5, .relative = 0.5, .max_abs = 1e-3, .x = where.x(), .y = where.y()};
+    return fem_warnings(scene, p, check).at(0);
+  };
+  scene.water.stretches.clear();
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.soils[0].polygon = {{0, 0}, {15.2, 0}, {15.2, 10}, {0, 10}};
+  CHECK_THAT(warning({14.8, 5}),
+             Contains("the lattice does not fit the line x = 15.2 m, 0.2 m from the border"));
+  scene.soils[0].polygon = {{0, 0}, {15, 0}, {15, 10}, {0, 10}};
+  CHECK_THAT(warning({14.8, 5}), !Contains("does not fit"));
+
+  scene.boundaries = {{BoundaryKind::fixed, {0, 0}, {15, 0}}};
+  scene.soils[0].polygon = {{0, 0}, {15, 0}, {5, 4}};
+  CHECK_THAT(warning({13.5, 0.3}),
+             Contains("the corner at (15, 0) is near, where the soil ends in 22 degrees"));
+  scene.soils[0].polygon = {{0, 0}, {15, 0}, {15, 4}, {0, 4}};
+  CHECK_THAT(warning({14.5, 0.3}),
+             Contains("the corner at (15, 0) is near, where stress grows without bound"));
+  scene.soils[0].polygon = {{0, 0}, {7, 0}, {7, 4}, {15, 4}, {15, 8}, {0, 8}};
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {7, 0}},
+                      {BoundaryKind::roller, {7, 0}, {7, 4}},
+                      {BoundaryKind::roller, {7, 4}, {15, 4}}};
+  CHECK_THAT(warning({7.5, 4.5}), Contains("soil slides along both walls and stress grows without bound"));
+}
+
 TEST_CASE("Places around singular points are left out") {
   Case scene = scene_of_particles();
   scene.boundaries = {{BoundaryKind::fixed, {0, 0}, {15, 0}}};  // both lower corners are singular now

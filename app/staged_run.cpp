@@ -1,0 +1,133 @@
+#include "app/staged_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+namespace porosph::app {
+namespace {
+
+constexpr std::array<const char*, 5> endings{"time", "rest", "failure", "unstable", "interrupted"};
+
+std::string ending(const RunOutcome& outcome) {
+  if (outcome.failed) return "failure";
+  switch (outcome.status) {
+    case RunStatus::completed:
+      return "time";
+    case RunStatus::equilibrium:
+      return "rest";
+    case RunStatus::unstable:
+      return "unstable";
+    case RunStatus::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+/// The numbers of a stage that has ended; its name is the case's.
+void visit_stage(StateArchive& state, Summary::Stage& stage) {
+  auto how = static_cast<std::int64_t>(std::ranges::find(endings, stage.ended) - endings.begin());
+  state.value("stage_ended", how);
+  if (how < 0 || how >= std::ssize(endings))
+    throw StateError("the saved state has a stage that ended in no way");
+  stage.ended = endings[how];
+  state.value("stage_start", stage.start);
+  state.value("stage_time", stage.time);
+  state.value("stage_steps", stage.steps);
+  state.value("stage_particles", stage.particles);
+  state.value("stage_unbalanced", stage.unbalanced_force_ratio);
+  state.value("stage_displacement", stage.largest_displacement);
+}
+
+void visit_probes(StateArchive& state, const std::vector<ProbeCase>& probes, Summary::Stage& stage) {
+  for (const ProbeCase& probe : probes) {
+    Summary::Probe& p = stage.probes[probe.name];
+    p.x = probe.position.x(), p.y = probe.position.y();
+    for (const std::string& quantity : probe_quantities()) state.value(quantity, p.values[quantity]);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, Summary::Probe> probe_readings(const Simulation& s) {
+  std::map<std::string, Summary::Probe> readings;
+  for (const Probe& probe : s.probes()) {
+    Summary::Probe& p = readings[probe.name()];
+    p.x = probe.start().x(), p.y = probe.start().y();
+    const std::vector<double> values = probe.read(s.model().particles).values();
+    for (std::size_t i = 0; i < values.size(); ++i) p.values[probe_quantities()[i]] = values[i];
+  }
+  return readings;
+}
+
+StagedRun::StagedRun(const Case& scene, const HandedOver* state) : scene_(scene), plan_(scene) {
+  begin({.time = 0, .state = state});
+}
+
+void StagedRun::begin(const Beginning& beginning) {
+  simulation_ = std::make_unique<Simulation>(plan_.scene(), beginning);
+}
+
+void StagedRun::end(const RunOutcome& outcome) {
+  if (!has_stages()) return;
+  Simulation& s = *simulation_;
+  ended_.push_back({.name = plan_.name(),
+                    .ended = ending(outcome),
+                    .start = s.start_time(),
+                    .time = s.time(),
+                    .steps = s.step(),
+                    .particles = static_cast<std::int64_t>(s.model().particles.size()),
+                    .unbalanced_force_ratio = s.showable() ? s.unbalanced_force_ratio() : std::nan(""),
+                    .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
+                    .probes = probe_readings(s)});
+}
+
+bool StagedRun::goes_on() const {
+  return has_stages() && !plan_.is_last() && (ended_.back().ended == "time" || ended_.back().ended == "rest");
+}
+
+void StagedRun::go_on() {
+  const HandedOver state = simulation_->hand_over();
+  const double time = simulation_->time();
+  if (const auto issues = plan_.go_on(time); !issues.empty())
+    throw std::runtime_error(fmt::format("key '{}': {}", issues.front().key, issues.front().message));
+  begin({.time = time, .state = &state, .reset_displacements = plan_.resets_displacements()});
+}
+
+void StagedRun::visit(StateArchive& state) {
+  auto count = static_cast<std::int64_t>(plan_.stage());  // of those before the present one
+  state.value("stages_ended", count);
+  if (count < 0 || count > std::ssize(scene_.stages))
+    throw StateError("the saved state has more stages than the case");
+  if (state.restoring()) ended_.assign(static_cast<std::size_t>(count), {}), plan_ = StagePlan(scene_);
+  for (Summary::Stage& stage : std::span(ended_).first(static_cast<std::size_t>(count))) {
+    visit_stage(state, stage);
+    visit_probes(state, scene_.probes, stage);
+    if (!state.restoring()) continue;
+    stage.name = plan_.name();
+    if (!plan_.go_on(stage.time).empty()) throw StateError("the saved state is not of the case's stages");
+  }
+  if (state.restoring() && count > 0) begin({.time = ended_.back().time});
+  simulation_->visit(state);
+}
+
+std::int64_t StagedRun::steps() const {
+  const bool present_is_noted = !ended_.empty() && ended_.size() > plan_.stage();
+  std::int64_t sum = present_is_noted ? 0 : simulation_->step();
+  for (const Summary::Stage& stage : ended_) sum += stage.steps;
+  return sum;
+}
+
+std::int64_t StagedRun::particle_steps() const {
+  const bool present_is_noted = !ended_.empty() && ended_.size() > plan_.stage();
+  std::int64_t sum =
+      present_is_noted ? 0 : simulation_->step() * std::ssize(simulation_->model().particles.position);
+  for (const Summary::Stage& stage : ended_) sum += stage.steps * stage.particles;
+  return sum;
+}
+
+}  // namespace porosph::app

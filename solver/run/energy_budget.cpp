@@ -1,0 +1,24 @@
+#include "solver/run/energy_budget.hpp"
+
+#include "solver/sph/consistent/flowing_soil.hpp"
+
+namespace porosph {
+
+std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start) {
+  const FlowingSoil* flow = simulation.dynamics().flow();
+  if (flow == nullptr) return std::nullopt;
+  const Simulation::Energy now = simulation.energy();
+  const FlowingSoil::Work& work = flow->work();
+  Summary::EnergyBudget budget{.released = -(now.gravity + now.water) + work.shift,
+                               .kinetic = now.kinetic,
+                               .elastic = now.elastic - at_start,
+                               .plastic = work.plastic,
+                               .control = work.control,
+                               .diffusion = work.diffusion,
+                               .bulk_viscosity = work.viscous};
+  budget.unaccounted = budget.released - budget.kinetic - budget.elastic - budget.plastic - budget.control -
+                       budget.diffusion - budget.bulk_viscosity;
+  return budget;
+}
+
+}  // namespace porosph

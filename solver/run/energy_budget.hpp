@@ -1,0 +1,14 @@
+// Where the energy went that gravity released in soil that flows.
+#pragma once
+
+#include <optional>
+
+#include "solver/output/frame.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace porosph {
+
+/// Since the start, at which the total energy was `at_start` [J/m]; nothing where no soil yields.
+std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start);
+
+}  // namespace porosph
