@@ -56,7 +56,7 @@ TEST_CASE("water above the ground with the conventional form", "[limits]") {
 
 TEST_CASE("the least density ratio of eq. (25)", "[limits]") {
   Case at = scene_of(Motion::rho_squared);
-  at.soils[0].unit_weight_unsaturated = 0.5 * at.soils[0].unit_weight_saturated;
+  at.soils[0].unit_weight_unsaturated = 0.6 * at.soils[0].unit_weight_saturated;
   Case beyond = at;
   beyond.soils[0].unit_weight_unsaturated *= 0.99;
   check_limit(at, beyond, "rho_squared");
