@@ -130,9 +130,9 @@ std::vector<std::size_t> bodies(const Case& c, double tolerance) {
   return body;
 }
 
-/// Rollers hold only across themselves: an upright one carries nothing.
+/// Rollers hold only across themselves, and walls with friction slip: an upright one carries nothing.
 bool carries(const BoundaryCase& b, const SoilCase& soil, const Case& c, double tolerance) {
-  if (b.kind == BoundaryKind::roller && std::abs(unit(b).x()) < 1e-4) return false;
+  if (b.kind != BoundaryKind::fixed && std::abs(unit(b).x()) < 1e-4) return false;
   Case alone = c;
   alone.soils = {soil};
   return fault_along(alone, b, tolerance).empty();
