@@ -132,7 +132,7 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
     figure.panels.push_back(fem_panel(*fem, runs.front().run, runs.front().last, field, unit.factor));
     values.push_back(figure.panels.back().particles.values);
   }
-  figure.scale = scale_of(field, unit, runs.front().run.scene, range_of_runs(values, usual_map(field)));
+  figure.scale = scale_of(field, unit, runs.front().run.scene, range_of_runs(values, usual_map(field)), true);
   const std::string file = "contours_" + file_name(field.text()) + ".png";
   save_contours(figure, folder / file);
   return {file, shown_name(field) + " of all runs",
@@ -229,7 +229,7 @@ ReportPicture draw_development(const LoadedRun& loaded, const FieldSelection& fi
   }
   std::vector<ValueRange> extents;
   for (const auto& v : values) extents.push_back(robust_extent(v));
-  figure.scale = scale_of(field, unit, run.scene, range_of_instants(extents, usual_map(field)));
+  figure.scale = scale_of(field, unit, run.scene, range_of_instants(extents, usual_map(field)), true);
   const std::string file = "development_" + file_name(loaded.run.name) + ".png";
   save_contours(figure, folder / file);
   return {file, shown_name(field) + " over time in run " + loaded.label,
