@@ -24,15 +24,10 @@ WallFriction::WallFriction(const Model& model)
     : spacing_(model.spacing),
       smoothing_length_(model.smoothing_length),
       memory_(lag * model.smoothing_length / model.wave_speed) {
-  const std::size_t n = model.particles.size();
+  const std::vector<double> zero(model.particles.size(), 0);
   for (std::size_t w = 0; w < model.walls.size(); ++w)
     if (model.walls[w].kind == BoundaryKind::friction)
-      walls_.push_back({static_cast<std::int32_t>(w),
-                        std::vector<double>(n, 0),
-                        std::vector<double>(n, 0),
-                        std::vector<double>(n, 0),
-                        {},
-                        {}});
+      walls_.push_back({static_cast<std::int32_t>(w), zero, zero, zero, {}, {}, {}});
 }
 
 void WallFriction::take(const ReferenceConfiguration& r, const Model& model) {
