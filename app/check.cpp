@@ -99,6 +99,11 @@ std::string strength_text(const SoilCase& soil, double spacing) {
       return fmt::format("; {}, c_u = {:.4g} kPa{}{}", law_name(soil.law), c.undrained_strength / 1e3,
                          c.growth > 0 ? fmt::format(" and {:.4g} kPa per m of depth", c.growth / 1e3) : "",
                          softening_text(c, spacing));
+    case LawKind::cam_clay:
+      return fmt::format(
+          "; {}, M = {:g}, lambda = {:g}, kappa = {:g}, e = {:g}: K and G are the most that it may reach",
+          law_name(soil.law), soil.cam_clay.ratio, soil.cam_clay.lambda, soil.cam_clay.kappa,
+          soil.cam_clay.void_ratio);
     case LawKind::drucker_prager:
     case LawKind::mohr_coulomb:
       break;

@@ -72,6 +72,7 @@ int report_command(const Arguments& arguments);
 int fem_command(const Arguments& arguments);
 int safety_command(const Arguments& arguments);
 int element_command(const Arguments& arguments);
+int profile_command(const Arguments& arguments);
 int stability_command(const Arguments& arguments);
 int bench_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);

@@ -32,6 +32,7 @@ const std::vector<Command> commands = {
     {"section", "draw values along a line through the soil", section_command},
     {"grid", "write values of a run on a regular grid", grid_command},
     {"history", "draw what probes recorded: stress, settlement, stress paths", history_command},
+    {"profile", "draw the surface of soil that has moved, and how far it went", profile_command},
     {"compare", "put two runs side by side, with their difference", compare_command},
     {"report", "make a page of pictures and tables of runs", report_command},
     {"bench", "measure speed, and run time against error", bench_command},

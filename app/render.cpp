@@ -22,7 +22,7 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string series, label, field, time, out, range, map, style, arrows;
+  std::string series, label, field, time, out, range, scale, map, style, arrows;
   bool crosses = false;
   double deformation = 1, rate = 10;
   int width = 0, height = 0;
@@ -50,6 +50,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "principal effective stresses on top: blue in compression, red in tension")(
       "range", po::value(&o.range)->value_name("LOW,HIGH"),
       "of the colours, in the unit of the colour bar (default: all values, rounded)")(
+      "scale", po::value(&o.scale)->value_name("linear|logarithmic"),
+      "of the colours; logarithmic: three decades up to the largest value, or a --range above zero (default: "
+      "logarithmic for PlasticStrain, else linear)")(
       "deform", po::value(&o.deformation)->value_name("FACTOR")->default_value(1),
       "displacements are drawn this many times; 0 draws the start")(
       "map", po::value(&o.map)->value_name("viridis|cividis|cool_warm"),
@@ -72,6 +75,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
     if (values.count(name) > 0 && (size < 200 || size > 8000))
       throw UsageError(fmt::format("--{} = {}: must be from 200 to 8000 pixels", name, size));
   if (!std::isfinite(o.deformation)) throw UsageError("--deform must be a finite number");
+  if (!o.scale.empty() && o.scale != "linear" && o.scale != "logarithmic")
+    throw UsageError(fmt::format("--scale = {}: must be linear or logarithmic", o.scale));
   if (!(o.rate >= 0.1 && o.rate <= 60))
     throw UsageError(fmt::format("--rate = {:g}: must be from 0.1 to 60 pictures per second", o.rate));
   if (fs::path(o.out).extension() == ".webp" && o.time != "all")
@@ -146,6 +151,21 @@ Spread spread_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
   return spread;
 }
 
+/// The range where none is given, and whether colours are logarithmic.
+void set_range(ColourScale& scale, const Spread& spread, const Options& o, const FieldSelection& selection) {
+  const bool given = scale.range.has_value();
+  const bool wanted = o.scale.empty() ? usually_logarithmic(selection) && (!given || scale.range->low > 0)
+                                      : o.scale == "logarithmic";
+  if (!given) scale.range = range_of_instants(spread.extents, scale.map);
+  if (!wanted) return;
+  if (!given)
+    make_logarithmic(scale);
+  else if (!(scale.range->low > 0))
+    throw UsageError(fmt::format("--range = {}: logarithmic colours need a range above zero", o.range));
+  else
+    scale.logarithmic = true;
+}
+
 /// Adds what is drawn on top, and says so in the subtitle.
 void add_marks(ContourPanel& panel, const Frame& frame, const Options& o) {
   if (!o.arrows.empty()) {
@@ -185,7 +205,7 @@ int render_command(const Arguments& arguments) {
   for (ValueRange& e : spread.extents) e = {e.low * unit.factor, e.high * unit.factor};
   ColourScale scale = scale_of(selection, unit, run.scene, read_range("--range", o->range));
   scale.map = read_map(o->map, selection);
-  if (!scale.range) scale.range = range_of_instants(spread.extents, scale.map);
+  set_range(scale, spread, *o, selection);
   const auto figure_of = [&](std::size_t i) {
     const Frame frame = frame_of(run, i);
     ContourPanel panel =

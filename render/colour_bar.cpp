@@ -25,7 +25,9 @@ std::string reach_text(double value) {
   return (value < 0 ? "to −" : "to ") + number;
 }
 
-Axis axis_of(const FixedScale& scale) { return {scale.range.low, scale.range.high, false, scale.label}; }
+Axis axis_of(const FixedScale& scale) {
+  return {scale.range.low, scale.range.high, scale.logarithmic, scale.label};
+}
 
 ValueRange given_range(const ColourScale& scale) {
   const ValueRange range = *scale.range;
@@ -105,6 +107,17 @@ void draw_point(Canvas& canvas, const Box& bar, double base, double tip, Colour 
   canvas.line(triangle, {.colour = {60, 60, 60}});
 }
 
+/// 1, 2 and 5 times powers of ten within the range.
+std::vector<double> one_two_five(const ValueRange& range) {
+  std::vector<double> levels;
+  for (int power = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10, power) <= range.high;
+       ++power)
+    for (const double digit : {1, 2, 5})
+      if (const double level = digit * std::pow(10, power); level >= range.low && level <= range.high)
+        levels.push_back(level);
+  return levels;
+}
+
 }  // namespace
 
 FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
@@ -118,15 +131,18 @@ FixedScale fix_scale(const ColourScale& scale, std::span<const double> values) {
   else
     fixed.range = is_diverging(scale.map) ? centred_range(extent) : rounded_range(extent);
   const double hair = 1e-6 * (fixed.range.high - fixed.range.low);
+  fixed.logarithmic = scale.logarithmic && fixed.range.low > 0;
   fixed.bands = scale.bands && scale.categories.empty();
   if (scale.categories.empty()) {
     constexpr int most_levels = 13;
-    fixed.levels = linear_ticks(fixed.range.low, fixed.range.high, most_levels);
+    fixed.levels = fixed.logarithmic ? one_two_five(fixed.range)
+                                     : linear_ticks(fixed.range.low, fixed.range.high, most_levels);
     std::erase_if(fixed.levels, [&](double level) {
-      return level < fixed.range.low + hair || level > fixed.range.high - hair;
+      const double at = axis_of(fixed).fraction(level);
+      return at < 1e-6 || at > 1 - 1e-6;
     });
   }
-  fixed.values_below = extent.low < fixed.range.low - hair;
+  fixed.values_below = extent.low < fixed.range.low - (fixed.logarithmic ? 1e-6 * fixed.range.low : hair);
   fixed.values_above = extent.high > fixed.range.high + hair;
   if (extent.low > extent.high) fixed.values_below = fixed.values_above = false;
   fixed.values_invalid = std::ranges::any_of(values, [](double value) { return !std::isfinite(value); });
@@ -138,7 +154,9 @@ std::vector<Colour> band_colours(const FixedScale& scale) {
   edges.insert(edges.begin(), scale.range.low);
   edges.push_back(scale.range.high);
   std::vector<double> middles;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) middles.push_back(0.5 * (edges[i] + edges[i + 1]));
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    middles.push_back(scale.logarithmic ? std::sqrt(edges[i] * edges[i + 1])
+                                        : 0.5 * (edges[i] + edges[i + 1]));
   FixedScale continuous = scale;
   continuous.bands = false;
   return colours_of(middles, continuous);
@@ -158,14 +176,15 @@ std::vector<Colour> colours_of(std::span<const double> values, const FixedScale&
   }
   const std::vector<Colour> table = bar_colours(scale);
   const auto count = static_cast<double>(table.size());
-  const double per_value = count / (scale.range.high - scale.range.low);
+  const Axis axis = axis_of(scale);
   std::vector<Colour> colours;
   colours.reserve(values.size());
   for (const double value : values) {
     if (!std::isfinite(value)) {
       colours.push_back(invalid_colour(scale.map));
     } else {
-      const double index = std::clamp((value - scale.range.low) * per_value, 0., count - 1.);
+      const double place = value > scale.range.low ? axis.fraction(value) : 0;
+      const double index = std::clamp(place * count, 0., count - 1.);
       colours.push_back(table[static_cast<std::size_t>(index)]);
     }
   }
@@ -195,7 +214,7 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
     draw_colours(canvas, bar, table);
   canvas.frame(bar, edge);
   if (const double zero = bar.y + bar.height * axis_of(scale).fraction(0); zero > bar.y && zero < bar.top())
-    if (scale.categories.empty()) canvas.line({bar.x, zero}, {bar.right(), zero}, edge);
+    if (scale.categories.empty() && !scale.logarithmic) canvas.line({bar.x, zero}, {bar.right(), zero}, edge);
   if (scale.values_below) draw_point(canvas, bar, bar.y, bar.y - point_height, table.front());
   if (scale.values_above) draw_point(canvas, bar, bar.top(), bar.top() + point_height, table.back());
   const auto beside = [&](double y, const std::string& text) {

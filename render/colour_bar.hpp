@@ -18,6 +18,7 @@ struct ColourScale {
       {};  ///< default: the extent of the values, rounded; centred at zero if diverging
   std::vector<std::string> categories = {};  ///< names of the values 0, 1, ...: the bar has a box for each
   bool bands = false;                        ///< a colour per step of the bar, in place of continuous ones
+  bool logarithmic = false;  ///< where the range is positive; zero and less have the colour of the low end
 };
 
 /// A scale whose range is known, and what the values shown with it do.
@@ -30,6 +31,7 @@ struct FixedScale {
   std::vector<std::string> categories = {};
   std::vector<double> levels = {};  ///< within the range, increasing: where isolines are, and colours change
   bool bands = false;
+  bool logarithmic = false;
 };
 
 /// Settles the range for all of `values`. Throws std::runtime_error for a given range that is empty or not

@@ -170,6 +170,15 @@ void draw_fixed(Canvas& canvas, const DrawnWall& wall) {
     canvas.line(wall.at(s, 0), wall.at(std::max(0., s - depth), depth), {.colour = outline_grey, .width = 1});
 }
 
+/// Hatched like a fixed one, behind a gap in which the soil slides.
+void draw_friction(Canvas& canvas, const DrawnWall& wall) {
+  constexpr double gap = 3;
+  DrawnWall behind = wall;
+  behind.from = wall.at(0, gap), behind.to = wall.at(wall.length, gap);
+  canvas.line(wall.from, wall.to, {.colour = outline_grey, .width = 1});
+  draw_fixed(canvas, behind);
+}
+
 void draw_rollers(Canvas& canvas, const DrawnWall& wall) {
   constexpr double radius = 3.5, spacing = 30;
   const int count = std::max(2, static_cast<int>(wall.length / spacing));
@@ -186,6 +195,8 @@ void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutlin
   if (!(wall.length > 0)) return;
   if (support_of(boundary.kind).carries_shear())
     draw_fixed(canvas, wall);
+  else if (boundary.kind == BoundaryKind::friction)
+    draw_friction(canvas, wall);
   else
     draw_rollers(canvas, wall);
 }

@@ -31,7 +31,7 @@ inline Case box_of_soil(int columns, int rows, double spacing = 0.5) {
 }
 
 inline void add_wall(Case& scene, BoundaryKind kind, Point from, Point to) {
-  scene.boundaries.push_back({.kind = kind, .from = from, .to = to});
+  scene.boundaries.push_back({.kind = kind, .from = from, .to = to, .coefficient = 0});
 }
 
 /// Water at rest everywhere, up to `level` [m].

@@ -118,8 +118,9 @@ void draw_field(const Drawing& d, const FieldSelection& field, const fs::path& f
         fem_panel(*d.fem, d.b.run, d.b.frame, field, unit.factor, d.choice.deformation, d.choice.style));
   std::vector<std::vector<double>> values;
   for (const ContourPanel& panel : figure.panels) values.push_back(panel.particles.values);
-  figure.scale = scale_of(field, unit, d.b.run.scene,
-                          d.choice.range ? *d.choice.range : range_of_runs(values, usual_map(field)));
+  figure.scale =
+      scale_of(field, unit, d.b.run.scene,
+               d.choice.range ? *d.choice.range : range_of_runs(values, usual_map(field)), !d.choice.range);
   figure.panels.push_back(run_difference(d, field, unit.factor));
   if (with_fem)
     for (const Side* side : {&d.a, &d.b})

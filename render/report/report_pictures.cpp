@@ -172,7 +172,7 @@ ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optio
     values.push_back(figure.panels.back().particles.values);
   }
   figure.scale = scale_of(field, unit, runs.front().run.scene,
-                          shown.range ? shown.range : range_of_runs(values, usual_map(field)));
+                          shown.range ? shown.range : range_of_runs(values, usual_map(field)), !shown.range);
   return draw(figure, folder, "contours_" + file_name(field.text()), shown_name(field) + " of all runs",
               fmt::format("{} at the end of {}, one range of colours for all.", shown_name(field),
                           runs.size() == 1 ? "the run" : "each run"));
@@ -301,8 +301,9 @@ ContourFigure figure_of_frames(const LoadedRun& loaded, const std::vector<std::s
     panel.title = time_text(frames[i].time);
     figure.panels.push_back(std::move(panel));
   }
-  figure.scale = scale_of(field, unit, run.scene,
-                          shown.range ? shown.range : range_of_instants(extents, usual_map(field)));
+  figure.scale =
+      scale_of(field, unit, run.scene,
+               shown.range ? shown.range : range_of_instants(extents, usual_map(field)), !shown.range);
   return figure;
 }
 
@@ -348,8 +349,8 @@ std::vector<html::Instant> draw_pair(const LoadedRun& a, const LoadedRun& b, con
   for (std::vector<double>& v : values) v = scaled(std::move(v), unit.factor);
   ContourFigure figure;
   figure.title = shown_name(field);
-  figure.scale =
-      scale_of(field, unit, a.run.scene, shown.range ? shown.range : range_of_runs(values, usual_map(field)));
+  figure.scale = scale_of(field, unit, a.run.scene,
+                          shown.range ? shown.range : range_of_runs(values, usual_map(field)), !shown.range);
   std::vector<html::Instant> pictures;
   std::vector<fs::path> paths;
   for (const LoadedRun* r : {&a, &b}) {

@@ -187,13 +187,21 @@ ValueRange range_of_runs(const std::vector<std::vector<double>>& values, ColourM
 }
 
 ColourScale scale_of(const FieldSelection& field, const ShownUnit& unit, const std::optional<Case>& scene,
-                     std::optional<ValueRange> range) {
+                     std::optional<ValueRange> range, bool usual) {
   ColourScale scale{.label = shown_label(field, unit), .map = usual_map(field), .range = range};
+  if (usual && usually_logarithmic(field)) make_logarithmic(scale);
   if (field.name == "SoilId" && scene) {
     scale.label = "soil";
     for (const SoilCase& soil : scene->soils) scale.categories.push_back(soil.name);
   }
   return scale;
+}
+
+void make_logarithmic(ColourScale& scale) {
+  constexpr double decades = 1e3;
+  if (!scale.range || !(scale.range->high > 0)) return;
+  scale.range->low = scale.range->high / decades;
+  scale.logarithmic = true;
 }
 
 std::string time_text(double time) { return fmt::format("t = {:.3g} s", time); }

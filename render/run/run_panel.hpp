@@ -41,9 +41,13 @@ std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& st
 ValueRange range_of_runs(const std::vector<std::vector<double>>& values, ColourMap map);
 ValueRange range_of_instants(const std::vector<ValueRange>& robust_extents, ColourMap map);
 
-/// Label, map and, for the soils' numbers, their names. `range`: as the colours have it.
+/// Label, map and, for the soils' numbers, their names. `range`: as the colours have it; with `usual` of a
+/// field that is usually logarithmic, the three decades below its end.
 ColourScale scale_of(const FieldSelection& field, const ShownUnit& unit, const std::optional<Case>& scene,
-                     std::optional<ValueRange> range);
+                     std::optional<ValueRange> range, bool usual = false);
+
+/// Three decades up to the range's high end, with logarithmic colours; as it is where that is not positive.
+void make_logarithmic(ColourScale& scale);
 
 /// "t = 1.25 s".
 std::string time_text(double time);

@@ -133,6 +133,8 @@ ColourMap usual_map(const FieldSelection& selection) {
                                                                      : ColourMap::viridis;
 }
 
+bool usually_logarithmic(const FieldSelection& selection) { return selection.name == "PlasticStrain"; }
+
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& v : values) v *= factor;
   return values;

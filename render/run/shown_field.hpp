@@ -36,6 +36,9 @@ std::string name_in_sentence(const FieldSelection& selection);
 /// Diverging for what is zero at rest and has either sign (shear, sideways motion), else sequential.
 ColourMap usual_map(const FieldSelection& selection);
 
+/// Whether the colours are usually logarithmic: of strain that localises in bands, over some decades.
+bool usually_logarithmic(const FieldSelection& selection);
+
 /// Every value times `factor`.
 std::vector<double> scaled(std::vector<double> values, double factor);
 

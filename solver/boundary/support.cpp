@@ -3,7 +3,7 @@
 namespace porosph {
 namespace {
 
-/// Nothing moves across it; the soil slides along it.
+/// Nothing moves across it; the soil slides along it, and friction is added to its stress (WallFriction).
 class Roller final : public Support {
  public:
   Mat2 mirrored_motion(const Vec2& normal) const override { return reflection_in(normal); }
@@ -22,8 +22,8 @@ class Fixed final : public Support {
 const Support& support_of(BoundaryKind kind) {
   static const Roller roller;
   static const Fixed fixed;
-  if (kind == BoundaryKind::roller) return roller;
-  return fixed;
+  if (kind == BoundaryKind::fixed) return fixed;
+  return roller;
 }
 
 Mat2 reflection_in(const Vec2& normal) { return Mat2::Identity() - 2 * normal * normal.transpose(); }

@@ -68,7 +68,8 @@ bool Wall::faces(const Vec2& p, double range, double beyond) const {
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
                              double range, const std::function<bool(const Vec2&)>& in_soil) {
   std::vector<Wall> walls;
-  for (const BoundaryCase& b : boundaries) walls.push_back({.kind = b.kind, .from = b.from, .to = b.to});
+  for (const BoundaryCase& b : boundaries)
+    walls.push_back({.kind = b.kind, .friction = b.coefficient, .from = b.from, .to = b.to});
   for (Wall& wall : walls) {
     if (in_soil) wall.normal = normal_by_soil(wall, range, in_soil);
     if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, points, range);

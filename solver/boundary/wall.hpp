@@ -14,6 +14,7 @@ namespace porosph {
 
 struct Wall {
   BoundaryKind kind = BoundaryKind::fixed;
+  double friction = 0;                          ///< shear over normal effective stress that it bears at most
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< [m]
   Vec2 normal = Vec2::Zero();                   ///< unit, towards the soil
   bool bears_weight = false;  ///< stress changes across it: fixed, or gravity acts through it

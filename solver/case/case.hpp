@@ -41,6 +41,7 @@ enum class LawKind {
   drucker_prager,  ///< friction and cohesion by a cone with Mohr and Coulomb's strength in plane strain
   mohr_coulomb,    ///< friction and cohesion
   tresca,          ///< undrained clay: a shear strength that does not depend on pressure
+  cam_clay,        ///< modified Cam-clay: hardens with compression; elastic by pressure
 };
 enum class SofteningKind { none, exponential, linear };
 
@@ -61,6 +62,17 @@ struct StrengthCase {
   double sensitivity = 1;              ///< c_u over its residual value
 };
 
+/// Of a soil with the law of modified Cam-clay.
+struct CamClayCase {
+  double ratio = 0;              ///< M, q / p' at the critical state [-]
+  double lambda = 0;             ///< slope of the virgin line, 1 + e over ln p' [-]
+  double kappa = 0;              ///< slope of the swelling lines [-]
+  double void_ratio = 0;         ///< e at the start [-]
+  double preconsolidation = 0;   ///< p_c at the start; 0: by overconsolidation [Pa]
+  double overconsolidation = 1;  ///< p_c over what the K0 stress at the start needs [-]
+  double attraction = 1e3;       ///< what p' and p_c count from, below zero [Pa]
+};
+
 /// One soil: where it is and what it is.
 struct SoilCase {
   std::string name;
@@ -78,6 +90,7 @@ struct SoilCase {
                                    ///< shape of the first mode [m/s]
   LawKind law = LawKind::elastic;
   StrengthCase strength = {};
+  CamClayCase cam_clay = {};
   Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
   double porosity = -1;                ///< n; negative: none given, 0.4 [-]
   RetentionCase retention = {};
@@ -102,13 +115,15 @@ struct WaterCase {
 };
 
 enum class BoundaryKind {
-  roller,  ///< free to slide along the segment, no motion across it (mirrored ghost particles)
-  fixed,   ///< no motion at all (virtual particles)
+  roller,    ///< free to slide along the segment, no motion across it (mirrored ghost particles)
+  fixed,     ///< no motion at all (virtual particles)
+  friction,  ///< as a roller, but the soil slides along it against friction only
 };
 struct BoundaryCase {
   BoundaryKind kind = BoundaryKind::fixed;
   Point from = Point::Zero(), to = Point::Zero();  ///< straight segment; soil on one side of it [m]
   std::string name = {};                           ///< by which stages call it; may be empty
+  double coefficient = 0;  ///< of friction: shear over normal effective stress at most [-]
 };
 
 /// Traction on a straight free stretch of the outline as it is at the start: total stress on the soil.

@@ -239,6 +239,19 @@ std::vector<CaseIssue> check_settings(const Case& c) {
         {"start_from", "does not go with 'reference', which is for a case that starts by itself"});
   if (!c.start_from.empty() && c.water.mode == WaterMode::coupled)
     issues.push_back({"start_from", "does not go with water.mode = \"coupled\""});
+  for (std::size_t i = 0; i < c.soils.size(); ++i)
+    if (c.soils[i].law == LawKind::cam_clay && c.soils[i].cam_clay.preconsolidation == 0 &&
+        !c.loading.k0_stress)
+      issues.push_back({at("soil", i, "preconsolidation_pressure"),
+                        "is missing: without loading.k0_stress = true there is no stress at the start that "
+                        "overconsolidation_ratio could be over"});
+  for (std::size_t i = 0; i < c.boundaries.size(); ++i) {
+    if (c.boundaries[i].kind != BoundaryKind::friction) continue;
+    if (c.formulation.motion != Motion::consistent)
+      issues.push_back({at("boundary", i, "kind"), "\"friction\" needs formulation.motion = \"consistent\""});
+    if (c.water.mode == WaterMode::coupled)
+      issues.push_back({at("boundary", i, "kind"), "\"friction\" does not go with water.mode = \"coupled\""});
+  }
   const Issues of_flow = check_flow_settings(c);
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   if (!c.check.finite_elements_auto && c.check.finite_elements)

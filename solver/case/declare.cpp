@@ -13,7 +13,7 @@ namespace {
 using Names = std::string_view;
 constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
                                             "disordered", "surface", "stretched"};
-constexpr std::array<Names, 2> boundary_kinds{"roller", "fixed"};
+constexpr std::array<Names, 3> boundary_kinds{"roller", "fixed", "friction"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
@@ -121,8 +121,19 @@ void declare(Fields& f, ParticlesCase& c) {
 }
 
 void declare(Fields& f, BoundaryCase& c) {
-  f.choice(Key("kind", "", "`roller`: free to slide along it; `fixed`: no motion.").required(), c.kind,
-           boundary_kinds);
+  f.choice(
+      Key("kind", "",
+          "`roller`: free to slide along it; `fixed`: no motion; `friction`: sliding along it only where the "
+          "shear stress reaches `coefficient` times the normal effective stress.")
+          .required(),
+      c.kind, boundary_kinds);
+  const bool rubs = c.kind == BoundaryKind::friction;
+  Key coefficient =
+      Key("coefficient", "", "Coefficient of friction: the tangent of the angle of wall friction.")
+          .only_if(rubs, "kind = \"friction\"")
+          .otherwise("required");
+  coefficient.is_required = rubs;
+  f.number(coefficient, c.coefficient, between(0, 10));
   f.point(Key("from", "m", "One end.").required(), c.from);
   f.point(Key("to", "m", "The other end.").required(), c.to);
   f.name(Key("name", "", "By which [[stage]] calls it.").otherwise("none"), c.name);

@@ -8,7 +8,8 @@ namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 4> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca"};
+constexpr std::array<Names, 5> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca",
+                                    "modified_cam_clay"};
 constexpr std::array<Names, 3> softenings{"none", "exponential", "linear"};
 constexpr std::array<Names, 3> retention_models{"saturated", "gardner", "van_genuchten"};
 constexpr double steepest = 80;  // degrees
@@ -110,6 +111,40 @@ void declare_strength(Fields& f, LawKind law, StrengthCase& c) {
   declare_softening(f, frictional, undrained, c);
 }
 
+void declare_cam_clay(Fields& f, bool used, CamClayCase& c) {
+  const std::string condition = "law = \"modified_cam_clay\"";
+  f.number(required_if(used, "critical_state_ratio", "",
+                       "M: q over p' at the critical state, 6 sin(phi) / (3 - sin(phi)).", condition),
+           c.ratio, above(0, 3));
+  f.number(
+      required_if(used, "lambda", "", "Slope of the virgin compression line, of e over ln(p').", condition),
+      c.lambda, above(0, 10));
+  f.number(required_if(used, "kappa", "", "Slope of the swelling lines; less than lambda.", condition),
+           c.kappa, above(0, 10));
+  if (used && c.kappa >= c.lambda) f.reject("kappa", fmt::format("must be < lambda = {}", c.lambda));
+  f.number(required_if(used, "void_ratio", "", "Void ratio e at the start.", condition), c.void_ratio,
+           above(0, 100));
+  f.number(
+      Key("preconsolidation_pressure", "Pa",
+          "Mean effective pressure p_c to which the soil has once been compressed; at least what the stress "
+          "at the start needs.")
+          .only_if(used, condition)
+          .otherwise("by overconsolidation_ratio"),
+      c.preconsolidation, above(0, stiffest));
+  f.number(Key("overconsolidation_ratio", "",
+               "p_c over what the K0 stress at the start needs. From no stress, soil needs a "
+               "preconsolidation_pressure.")
+               .only_if(used && c.preconsolidation == 0, condition + " without preconsolidation_pressure"),
+           c.overconsolidation, between(1, 1e4));
+  f.number(
+      Key("attraction", "Pa",
+          "What p' and p_c count from, below zero: it gives soil without stress a stiffness, (1 + e) "
+          "attraction / kappa, and a cohesion of attraction times tan(phi). Keep it small beside the stress "
+          "that matters.")
+          .only_if(used, condition),
+      c.attraction, above(0, stiffest));
+}
+
 }  // namespace
 
 std::string_view law_name(LawKind law) { return laws[static_cast<std::size_t>(law)]; }
@@ -119,8 +154,12 @@ void declare(Fields& f, SoilCase& c) {
   f.polygon(Key("polygon", "m", "Outline, last point not repeated, either orientation.").required(),
             c.polygon);
   f.polygons(Key("holes", "m", "Outlines inside the polygon without soil."), c.holes);
-  f.number(Key("youngs_modulus", "Pa", "Drained Young's modulus E.").required(), c.youngs_modulus,
-           above(0, stiffest));
+  f.number(
+      Key("youngs_modulus", "Pa",
+          "Drained Young's modulus E. Of modified Cam-clay, whose stiffness grows with pressure, the most "
+          "that it may reach: it sets the time step, and a run ends where the soil becomes stiffer.")
+          .required(),
+      c.youngs_modulus, above(0, stiffest));
   f.number(Key("poissons_ratio", "", "Drained Poisson's ratio.").required(), c.poissons_ratio,
            {.min = -1, .max = 0.5, .min_included = false, .max_included = false});
   f.number(Key("unit_weight_saturated", "N/m3", "Unit weight of the soil below water.").required(),
@@ -138,7 +177,8 @@ void declare(Fields& f, SoilCase& c) {
           "How stress follows strain. `elastic`: linear, without end; the others are so until they yield. "
           "`drucker_prager`: friction and cohesion by a cone that in plane strain has Mohr and Coulomb's "
           "strength; `mohr_coulomb`: theirs itself; `tresca`: undrained clay, whose shear strength does not "
-          "depend on pressure."),
+          "depend on pressure; `modified_cam_clay`: clay that hardens as it is compressed, with a stiffness "
+          "in proportion to its pressure."),
       c.law, laws);
   f.flag(Key("no_tension", "",
              "A soil without cohesion: no effective stress where its mean would be tensile, and none until "
@@ -149,6 +189,7 @@ void declare(Fields& f, SoilCase& c) {
              .only_if(c.law == LawKind::elastic, "law = \"elastic\""),
          c.no_tension);
   declare_strength(f, c.law, c.strength);
+  declare_cam_clay(f, c.law == LawKind::cam_clay, c.cam_clay);
   const double upright = c.permeability.y();
   f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")
                .otherwise("none"),

@@ -18,6 +18,9 @@ std::string fem_obstacle(const Case& scene) {
     if (soil.velocity != Point::Zero() || soil.angular_velocity != 0 || soil.bending_velocity != 0)
       return fmt::format("soil '{}' has an initial velocity", soil.name);
   }
+  for (const BoundaryCase& b : scene.boundaries)
+    if (b.kind == BoundaryKind::friction)
+      return "soil slides along a wall against friction, which is not linear";
   if (!scene.loading.gravity_applied && scene.loads.empty())
     return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";

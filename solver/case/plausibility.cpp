@@ -192,7 +192,7 @@ void check_strength(const Case& scene, std::vector<std::string>& out) {
   for (std::size_t i = 0; i < scene.soils.size(); ++i) {
     const SoilCase& soil = scene.soils[i];
     const StrengthCase& c = soil.strength;
-    if (soil.law == LawKind::elastic) continue;
+    if (soil.law == LawKind::elastic || soil.law == LawKind::cam_clay) continue;
     if (scene.loading.gravity_applied) {
       if (soil.law == LawKind::tresca)
         check_strength_unit(scene, i, "undrained_strength", c.undrained_strength, out);

@@ -97,14 +97,14 @@ struct Specimen {
   void strain_by(const Vec4& strain) { stress = law.step(stress, gradient(strain), 1, history); }
 };
 
-double modulus_of(const Elasticity& law) { return law.constrained_modulus(); }
+Stress in_plane(const ElementSetup& s) { return {-s.radial_stress, -s.axial_stress, -s.radial_stress, 0}; }
 
 /// Newton's method with differences: laws are linear between their kinks or nearly so over a step. Lengths
 /// are those of strain: stress is divided by the modulus.
 template <class Law>
 struct StepSolver {
   const Conditions& conditions;
-  double modulus;
+  double modulus;  ///< of the state before the step [Pa]
 
   Vec4 residual(const Specimen<Law>& s, const Vec4& strain) const {
     const Vec4 stress = vector(s.after(strain));
@@ -158,31 +158,23 @@ ElementState state_of(const Specimen<Law>& s, const Vec4& strain, const ElementS
 }
 
 template <class Law>
-typename Law::History history_at_start(const Law& law, const Vec2& place) {
-  if constexpr (requires { law.at_start(place); })
-    return law.at_start(place);
-  else
-    return {};
-}
-
-template <class Law>
 ElementPath run(const Law& law, const ElementSetup& setup) {
   Conditions conditions = conditions_of(setup);
   Condition& drive = conditions.back();
   const double sign = sign_of_drive(setup);
   Specimen<Law> specimen{law,
                          {-setup.radial_stress, -setup.axial_stress, -setup.radial_stress, 0},
-                         history_at_start(law, setup.place)};
+                         history_at_start(law, setup.place, in_plane(setup))};
   ElementPath path{setup, {Law::history.begin(), Law::history.end()}, {}};
   Vec4 strain = Vec4::Zero(), guess = Vec4::Zero();
   path.states.push_back(state_of(specimen, strain, setup));
-  const StepSolver<Law> solver{conditions, modulus_of(law)};
   double from = setup.by_stress ? setup.axial_stress : 0;
   for (const double target : setup.targets) {
     const double increment = (target - from) / setup.steps;
-    const double size = std::abs(increment) / (setup.by_stress ? modulus_of(law) : 1);
     guess = Vec4::Zero();
     for (int k = 1; k <= setup.steps; ++k) {
+      const StepSolver<Law> solver{conditions, law.constrained_modulus(specimen.stress, specimen.history)};
+      const double size = std::abs(increment) / (setup.by_stress ? solver.modulus : 1);
       drive.value = sign * (setup.by_stress ? from + k * increment : increment);
       if (!solver.solve(specimen, size, guess)) {
         guess = Vec4::Zero();

@@ -114,11 +114,11 @@ Model build_model(const Case& case_as_drawn) {
   model.particles = make_particles(scene, model.water, sites_of(scene, model.origin));
   if (scene.soils.size() > 1) model.particles.interface_stress.assign(model.particles.size(), 0);
   check_every_soil_has_particles(scene, model.particles);
+  if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
   for (std::size_t i = 0; i < model.soils.size(); ++i) {
     model.soils[i].add_history(model.particles);
     model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
   }
-  if (scene.loading.k0_stress) add_k0_stress(scene, model.particles);
   if (scene.water.mode == WaterMode::steady) {
     const auto water = std::make_shared<SteadyWater>(scene, model.particles);
     water->wet(scene, model.particles);

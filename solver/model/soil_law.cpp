@@ -45,6 +45,19 @@ Tresca tresca(const SoilCase& soil, const Elasticity& elastic, double spacing, d
   return law;
 }
 
+CamClay cam_clay(const SoilCase& soil, const Elasticity& elastic, double reduction) {
+  const CamClayCase& c = soil.cam_clay;
+  const double sine = 3 * c.ratio / (6 + c.ratio);
+  const double reduced = std::sin(std::atan(std::tan(std::asin(sine)) / reduction));
+  CamClay law{elastic};
+  law.ratio = reduction == 1 ? c.ratio : 6 * reduced / (3 - reduced);
+  law.compressibility = c.lambda / (1 + c.void_ratio), law.swelling = c.kappa / (1 + c.void_ratio);
+  law.shear_ratio = elastic.shear_modulus / elastic.bulk_modulus;
+  law.attraction = c.attraction, law.void_ratio = c.void_ratio;
+  law.preconsolidation = c.preconsolidation, law.overconsolidation = c.overconsolidation;
+  return law;
+}
+
 }  // namespace
 
 AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
@@ -59,6 +72,8 @@ AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
                         [&](auto... strength) { return MohrCoulomb::from_angles(elastic, strength...); });
     case LawKind::tresca:
       return tresca(soil, elastic, spacing, reduction);
+    case LawKind::cam_clay:
+      return cam_clay(soil, elastic, reduction);
     case LawKind::elastic:
       break;
   }

@@ -283,6 +283,7 @@ void Simulation::look_for_breakdown() {
   constexpr double met = 0.25;  // of the smallest distance at the start
   const bool flows = std::ranges::any_of(model_.soils, &Soil::flows);  // particles keep meeting new ones
   if (!instability_ && !flows) instability_ = find_crossing(model_, met * at_start_.closest, time());
+  if (!instability_) instability_ = find_too_stiff(model_, time());
   if (!instability_) instability_ = find_beyond_wall(model_, time());
   if (scene_.stop.on_separation && !instability_)
     instability_ = find_separation(model_, at_start_.bodies, time());

@@ -40,6 +40,9 @@ double divided_angle(double degrees, double factor) {
 
 void weaken(SoilCase& soil, double factor) {
   StrengthCase& s = soil.strength;
+  const double sine = 3 * soil.cam_clay.ratio / (6 + soil.cam_clay.ratio);
+  const double weaker = std::sin(std::atan(std::tan(std::asin(sine)) / factor));
+  if (factor > 0) soil.cam_clay.ratio = 6 * weaker / (3 - weaker);
   if (factor == 0) {
     soil.law = LawKind::elastic;
     return;

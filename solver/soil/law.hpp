@@ -15,8 +15,8 @@ namespace porosph {
 /// cannot replace, no loop that ends early.
 ///
 /// What it remembers of a particle, History, is a struct of doubles that are 0 at the start, or what
-/// `at_start(position)` says where a law has that. The array `history` describes them in their order, and
-/// with that they are in checkpoints and output files.
+/// `at_start(position)` or `at_start(position, stress)` says where a law has that. The array `history`
+/// describes them in their order, and with that they are in checkpoints and output files.
 template <class Law, class Space = Plane>
 concept SoilLaw = std::is_trivially_copyable_v<Law> &&
     requires(const Law& law, const Symmetric<Space>& stress, const GradientIn<Space>& gradient, double dt,
@@ -52,6 +52,18 @@ inline double closing(double opening, double volume_strain) {
 
 /// Of a law that remembers nothing.
 struct NoHistory {};
+
+/// What the law remembers of a particle at t = 0 [m, Pa].
+template <class Law>
+typename Law::History history_at_start(const Law& law, const VectorIn<Plane>& position,
+                                       const Symmetric<Plane>& stress) {
+  if constexpr (requires { law.at_start(position, stress); })
+    return law.at_start(position, stress);
+  else if constexpr (requires { law.at_start(position); })
+    return law.at_start(position);
+  else
+    return {};
+}
 
 /// How many numbers a law remembers.
 template <class Law>

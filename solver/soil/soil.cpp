@@ -79,10 +79,11 @@ void Soil::add_history(Particles& particles) {
 void Soil::start_history(Particles& p, std::int32_t soil) const {
   std::visit(
       [&]<class Law>(const Law& law) {
-        if constexpr (requires { law.at_start(Vec2()); })
+        if constexpr (
+            requires { law.at_start(Vec2()); } || requires { law.at_start(Vec2(), Stress()); })
           for (std::size_t a = 0; a < p.size(); ++a) {
             if (p.soil[a] != soil) continue;
-            const typename Law::History q = law.at_start(p.position[a]);
+            const typename Law::History q = history_at_start(law, p.position[a], p.stress[a]);
             for (std::size_t k = 0; k < history_.size(); ++k)
               std::memcpy(&p.history[history_[k]].values[a],
                           reinterpret_cast<const char*>(&q) + k * sizeof(double), sizeof(double));
@@ -97,12 +98,25 @@ double Soil::mobilised_strength(const Particles& p, std::size_t a) const {
 }
 
 double Soil::plastic_dilation(const Particles& p, std::size_t a) const {
-  return of_yielding(law_, p, history_, a, [](const auto&, const auto& q) {
+  return of_yielding(law_, p, history_, a, [&](const auto& law, const auto& q) {
     if constexpr (requires { q.dilation; })
       return q.dilation;
+    else if constexpr (requires { law.plastic_dilation(p.stress[a], q); })
+      return law.plastic_dilation(p.stress[a], q);
     else
       return 0.0;
   });
+}
+
+double Soil::stiffness(const Particles& p, std::size_t a) const {
+  return std::visit(
+      [&]<class Law>(const Law& law) {
+        if constexpr (YieldingLaw<Law>)
+          return law.constrained_modulus(p.stress[a], history_of<Law>(p, history_, a));
+        else
+          return elastic_part(law).constrained_modulus();
+      },
+      law_);
 }
 
 double Soil::mobilised_friction(const Particles& p, std::size_t a) const {

@@ -32,7 +32,9 @@ class Soil {
   /// Shear stress of a particle over the most that the law bears at its mean stress, at most 1; 0 in soil
   /// that bears any.
   double mobilised_strength(const Particles& particles, std::size_t a) const;
-  /// Volume strain of plastic flow, without what has opened.
+  /// Modulus M of one-dimensional compression of a particle now [Pa].
+  double stiffness(const Particles& particles, std::size_t a) const;
+  /// Volume strain without what has opened, beyond that of elastic soil with the law's largest moduli.
   double plastic_dilation(const Particles& particles, std::size_t a) const;
   /// Friction angle at which the particle's stress would be on the yield surface, where the cone's apex stays
   /// where it is [degrees]; 0 in soil without friction.

@@ -61,6 +61,80 @@ name = "A"
 position = [1, 1]
 """
 
+# Soil that fails and comes to rest, on a fixed base; and softening soil and clay that slide on walls with friction.
+COLLAPSE = """
+title = "Killed while it flows"
+[particles]
+spacing = 0.005
+arrangement = "lattice"
+[[soil]]
+name = "bars"
+polygon = [[0, 0], [0.1, 0], [0.1, 0.06], [0, 0.06]]
+youngs_modulus = 0.84e6
+poissons_ratio = 0.3
+unit_weight_saturated = 20.4e3
+law = "drucker_prager"
+cohesion = 0
+friction_angle = 19.8
+[[boundary]]
+kind = "fixed"
+from = [0, 0]
+to = [0.5, 0]
+[[boundary]]
+kind = "roller"
+from = [0, 0]
+to = [0, 0.1]
+[time]
+end = 0.3
+courant = 0.6
+[output]
+interval = 0.03
+fields = ["Velocity", "EffectiveStress", "Density", "PlasticStrain", "Opening", "Yielding"]
+"""
+SLIDE = """
+title = "Killed while it slides"
+[particles]
+spacing = 0.25
+[[soil]]
+name = "loam"
+polygon = [[0, 0], [6, -2], [6, -0.5], [0, 1.5]]
+youngs_modulus = 5e6
+poissons_ratio = 0.3
+unit_weight_saturated = 19e3
+law = "mohr_coulomb"
+cohesion = 4e3
+friction_angle = 20
+tensile_strength = 1e3
+softening = "linear"
+softening_strain = 0.2
+softening_length = 0.5
+residual_cohesion = 1e3
+[[soil]]
+name = "clay"
+polygon = [[6, -2], [9, -3], [9, -1.5], [6, -0.5]]
+youngs_modulus = 20e6
+poissons_ratio = 0.3
+unit_weight_saturated = 18e3
+law = "modified_cam_clay"
+critical_state_ratio = 1
+lambda = 0.2
+kappa = 0.04
+void_ratio = 1
+preconsolidation_pressure = 60e3
+attraction = 4e3
+[[boundary]]
+kind = "friction"
+coefficient = 0.25
+from = [0, 0]
+to = [15, -5]
+[time]
+end = 1
+courant = 0.4
+[output]
+interval = 0.1
+fields = ["Velocity", "EffectiveStress", "Density", "PlasticStrain", "VoidRatio", "Preconsolidation"]
+"""
+
 # "renewed" has a reference that is renewed many times and ends in equilibrium, "breakdown" ends unstable.
 VARIANTS = {
     "consistent": [],
@@ -72,8 +146,11 @@ VARIANTS = {
     "disordered": ["particles.arrangement=disordered", "particles.disorder=0.1"],
     "breakdown": ["formulation.motion=conventional", "time.courant=0.015", "loading.damping=0", "output.interval=0.1"],
     "renewed": ["formulation.refresh_strain=0.002", "stop.unbalanced_force_ratio=0.02", "loading.damping=0.02"],
+    "collapse": [],
+    "slide": [],
 }
-TEXTS = {"tide": CASE.replace("level = 2.5", "level_over_time = [[0, 2.5], [4, 3.5], [9, 1]]")}
+TEXTS = {"tide": CASE.replace("level = 2.5", "level_over_time = [[0, 2.5], [4, 3.5], [9, 1]]"),
+         "collapse": COLLAPSE, "slide": SLIDE}
 # Whether a comparison with finite elements is worth its time depends on how long the run took.
 TIMES_AND_MEMORY = ("wall_seconds", "stepping_seconds", "particle_steps_per_second", "peak_memory_bytes",
                     "finite_elements")

@@ -20,6 +20,11 @@ std::optional<SoilStrength> strength_of(const SoilCase& soil) {
       for (const Point& p : soil.polygon) top = std::max(top, p.y());
       return SoilStrength{s.undrained_strength, 0, s.growth, s.level == never ? top : s.level};
     }
+    case LawKind::cam_clay: {  // at the critical state, in triaxial compression
+      const double sine = 3 * soil.cam_clay.ratio / (6 + soil.cam_clay.ratio),
+                   tangent = sine / std::sqrt(1 - sine * sine);
+      return SoilStrength{soil.cam_clay.attraction * tangent, tangent};
+    }
     case LawKind::drucker_prager:
     case LawKind::mohr_coulomb:
       return SoilStrength{s.cohesion, std::tan(s.friction_angle * std::numbers::pi / 180)};

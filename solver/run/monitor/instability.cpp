@@ -35,8 +35,9 @@ bool finite(const Stress& s) { return std::isfinite(s.xx + s.yy + s.zz + s.xy); 
 }  // namespace
 
 std::string_view cause_name(Cause cause) {
-  static constexpr std::array<std::string_view, 7> names = {
-      "not finite", "too fast", "inverted", "energy gain", "separated", "beyond a wall", "not at rest"};
+  static constexpr std::array<std::string_view, 8> names = {"not finite",  "too fast",   "inverted",
+                                                            "energy gain", "separated",  "beyond a wall",
+                                                            "too stiff",   "not at rest"};
   return names[static_cast<std::size_t>(cause)];
 }
 
@@ -101,6 +102,21 @@ std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies
                    fmt::format("at {:.6g} s {} and {} more have left the soil body, at {}; {}", time,
                                name_of(model, first), size[thrown] - 1, place(model, p.position[first]),
                                model.usual_cause)};
+}
+
+std::optional<Breakdown> find_too_stiff(const Model& model, double time) {
+  const Particles& p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Soil& soil = model.soils[p.soil[i]];
+    const double share = soil.stiffness(p, i) / soil.constrained_modulus();
+    if (share > 1 + 1e-9)
+      return Breakdown{
+          Cause::too_stiff, time,
+          fmt::format("at {:.6g} s {} is {:.3g} times as stiff as youngs_modulus of its soil allows, at "
+                      "{}: the time step is for that; give the soil a larger one",
+                      time, name_of(model, i), share, place(model, p.position[i]))};
+  }
+  return std::nullopt;
 }
 
 double closest_distance(std::span<const Vec2> positions, double radius) {

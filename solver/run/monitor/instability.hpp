@@ -19,6 +19,7 @@ enum class Cause {
   energy_gain,  ///< motion and strain hold energy that came from nowhere
   separated,    ///< particles have left the soil body
   beyond_wall,  ///< a particle is behind a wall that held it
+  too_stiff,    ///< soil has become stiffer than the time step allows
   not_at_rest,  ///< soil that is to give way slowly does not come to rest: it fails
 };
 
@@ -48,6 +49,9 @@ std::optional<Breakdown> find_separation(const Model& model, std::int64_t bodies
 
 /// A particle that began in front of a wall and is behind it, by a quarter of the spacing.
 std::optional<Breakdown> find_beyond_wall(const Model& model, double time);
+
+/// Soil whose law has made it stiffer than the largest modulus of its case.
+std::optional<Breakdown> find_too_stiff(const Model& model, double time);
 
 /// Distance of the two particles that are nearest to each other, at most `radius` [m].
 double closest_distance(std::span<const Vec2> positions, double radius);

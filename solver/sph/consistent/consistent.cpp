@@ -23,6 +23,7 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
       kernels_(consistent_kernels(units)),
       soils_(model),
       surroundings_(model),
+      friction_(model),
       control_{
           .rho_c = controlled_rho_c(model), .viscosity = 0, .cells_are_cut = cells_are_cut(model.particles)} {
   control_.viscosity = formulation.zero_energy_control * control_.rho_c * model.smoothing_length;
@@ -58,6 +59,7 @@ void ConsistentDynamics::rebuild_reference() {
   const bool asked = spring_.active() || !own_sides_.empty() || flow_.active();
   yields_.assign(asked ? model_.particles.size() : 0, 0);
   if (flow_.active()) flow_.take(reference_, model_);
+  if (friction_.active()) friction_.take(reference_, model_);
   fluxes_ = Fluxes(reference_, model_, spring_.active());
   connect_arrays();
 }
@@ -125,7 +127,8 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  fluxes_.prepare_forces(reference_, model_, spring_, flow_.active() ? &flow_.viscosity() : nullptr);
+  fluxes_.prepare_forces(reference_, model_, spring_, flow_.active() ? &flow_.viscosity() : nullptr,
+                         friction_);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
@@ -167,6 +170,7 @@ void ConsistentDynamics::strain(double dt) {
   fluxes_.take_velocities(reference_, model_.particles);
   const LargestChange largest = strain_all(dt);
   since_.strain = largest.strain;
+  if (friction_.active()) friction_.slide(model_, dt);
   since_.travel += dt * std::sqrt(largest.speed_squared);
   if (spring_.active())
     spring_.slip(reference_, model_.particles, yields_, [&](std::int32_t a) { return own_strain(a); });
@@ -178,6 +182,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
   if (!made) return;
   if (state.restoring()) flow_ = FlowingSoil(model_, control_.viscosity);
   flow_.visit(state);
+  friction_.visit(state);
   Particles& p = model_.particles;
   std::vector<Vec2> positions(p.size());
   std::vector<double> densities(p.size());

@@ -4,6 +4,7 @@
 #include "solver/sph/consistent/flowing_soil.hpp"
 #include "solver/sph/consistent/fluxes.hpp"
 #include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/consistent/wall_friction.hpp"
 #include "solver/sph/dynamics.hpp"
 #include "solver/sph/kernels/consistent_kernels.hpp"
 #include "solver/sph/soil_views.hpp"
@@ -56,6 +57,7 @@ class ConsistentDynamics final : public Dynamics {
   const ConsistentKernels& kernels_;
   SoilViews soils_;
   Surroundings surroundings_;
+  WallFriction friction_;  ///< of no effect without a wall that has it
   Control control_;
   ReferenceConfiguration reference_;
   OwnSides own_sides_;

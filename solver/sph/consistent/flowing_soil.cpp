@@ -28,9 +28,11 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   if (std::ranges::none_of(model.soils, &Soil::flows)) return;
   const Particles& p = model.particles;
   rest_density_.resize(p.size());
-  for (std::size_t a = 0; a < p.size(); ++a)
-    rest_density_[a] = p.density[a] * std::exp(p.stress[a].mean() / model.soils[p.soil[a]].bulk_modulus() +
-                                               model.soils[p.soil[a]].plastic_dilation(p, a));
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const Soil& soil = model.soils[p.soil[a]];
+    rest_density_[a] =
+        p.density[a] * std::exp(p.stress[a].mean() / soil.bulk_modulus() + soil.plastic_dilation(p, a));
+  }
   viscosity_.assign(p.size(), control_viscosity);
   shear_rate_.assign(p.size(), 0);
 }

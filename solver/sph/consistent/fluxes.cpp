@@ -44,7 +44,8 @@ void Fluxes::take_velocities(const ReferenceConfiguration& r, const Particles& p
 }
 
 void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
-                            const ZeroEnergySpring& spring, std::vector<double>* flow) {
+                            const ZeroEnergySpring& spring, std::vector<double>* flow,
+                            WallFriction& friction) {
   take_pressures(r, model);
   if (flow != nullptr) take_viscosities(r, *flow);
   // Takes the velocities' place in the records until the next step, when all have been strained.
@@ -53,6 +54,7 @@ void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
     spread(r, controlled_,
            [&](std::size_t a) { return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p)); });
   behind_walls_.fill(r, piola_);
+  if (friction.active()) friction.apply(r, piola_);
   fill_ghost_fluxes(r, p.fill, flow == nullptr);
 }
 

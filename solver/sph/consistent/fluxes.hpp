@@ -9,6 +9,7 @@
 #include "solver/space/zero_pages.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/consistent/stress_behind_walls.hpp"
+#include "solver/sph/consistent/wall_friction.hpp"
 #include "solver/sph/consistent/zero_energy_spring.hpp"
 #include "solver/sph/kernels/record.hpp"
 
@@ -27,7 +28,7 @@ class Fluxes {
   /// zero-energy control, and the ghosts' P and flux.
   /// `flow`: viscosity of the control of each particle, which grows by the ghosts'; or null.
   void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
-                      const ZeroEnergySpring& spring, std::vector<double>* flow);
+                      const ZeroEnergySpring& spring, std::vector<double>* flow, WallFriction& friction);
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 

@@ -116,6 +116,27 @@ TEST_CASE("values get the colours of their place in the range") {
   CHECK(colours[5] == invalid_colour(ColourMap::viridis));
 }
 
+TEST_CASE("logarithmic colours give every decade its share, and zero the low end") {
+  const std::vector<double> values = {0, 0.01, 0.1, 1, 10, 36, -1};
+  const FixedScale scale =
+      fix_scale({.label = "", .range = ValueRange{0.01, 10}, .logarithmic = true}, values);
+  CHECK(scale.logarithmic);
+  CHECK(scale.values_below);
+  CHECK(scale.values_above);
+  const auto table = colour_table(ColourMap::viridis);
+  const auto colours = colours_of(values, scale);
+  CHECK(colours[0] == table.front());
+  CHECK(colours[1] == table.front());
+  CHECK(colours[2] == table[85]);
+  CHECK(colours[3] == table[170]);
+  CHECK(colours[4] == table.back());
+  CHECK(colours[5] == table.back());
+  CHECK(colours[6] == table.front());
+  CHECK(scale.levels.size() == 8);  // 0.02, 0.05, 0.1, ... 5
+  // A range that holds zero has no logarithm: it stays linear.
+  CHECK_FALSE(fix_scale({.label = "", .range = ValueRange{0, 10}, .logarithmic = true}, values).logarithmic);
+}
+
 TEST_CASE("a range does not follow single spots") {
   std::vector<double> values;
   for (int i = 0; i < 1000; ++i) values.push_back(0.1 * i);

@@ -44,8 +44,8 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:7:8: key 'soil[0].name' = \"fine sand\": must be 1 to 40 letters (a-z, A-Z), digits, '_' or "
        "'-'"},
       {"\"fixed\"", "\"fixd\"",
-       "box.toml:14:8: key 'boundary[0].kind' = \"fixd\": must be one of \"roller\", \"fixed\"; did you mean "
-       "'fixed'?"},
+       "box.toml:14:8: key 'boundary[0].kind' = \"fixd\": must be one of \"roller\", \"fixed\", "
+       "\"friction\"; did you mean 'fixed'?"},
       {"from = [0, 0]", "from = [0, 0, 0]",
        "box.toml:15:8: key 'boundary[0].from': must be two numbers [x, y] in m"},
       {"[4, 2]", "[4, 2e8]",
@@ -63,7 +63,7 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:10:14: key 'soil[0].no_tension' = 1: must be true or false"},
       {"poissons_ratio", "law = 'mohr-coulomb'\npoissons_ratio",
        "box.toml:10:7: key 'soil[0].law' = \"mohr-coulomb\": must be one of \"elastic\", \"drucker_prager\", "
-       "\"mohr_coulomb\", \"tresca\"; did you mean 'mohr_coulomb'?"},
+       "\"mohr_coulomb\", \"tresca\", \"modified_cam_clay\"; did you mean 'mohr_coulomb'?"},
       {"poissons_ratio", "cohesion = 1e3\npoissons_ratio",
        "box.toml:10:12: key 'soil[0].cohesion' = 1000: is used only with law = \"drucker_prager\" or "
        "\"mohr_coulomb\""},
@@ -86,7 +86,7 @@ TEST_CASE("values that are wrong by themselves") {
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
        "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, Yielding, "
        "MobilisedFriction, Head, PressureHead, Saturation, DarcyVelocity, HydraulicGradient, "
-       "PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength; "
+       "PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength, VoidRatio, Preconsolidation; "
        "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",

@@ -1,0 +1,75 @@
+// The shipped columns against the laws that experiments gave.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/verification/verification.hpp"
+
+using namespace porosph;
+using namespace porosph::verification;
+
+namespace {
+
+struct Deposit {
+  double quantile95, mean;  ///< of x [m]
+  double height;            ///< of the soil at the wall [m]
+  double kinetic;           ///< over the energy that the fall has set free
+};
+
+Deposit deposit_of(const std::string& name) {
+  Simulation simulation(scene(name));
+  const double before = simulation.energy().gravity;
+  run_to_end(simulation);
+  const Simulation::Energy energy = simulation.energy();
+  const Particles& p = simulation.model().particles;
+  std::vector<double> x;
+  double mean = 0, height = 0;
+  const double spacing = simulation.model().spacing;
+  for (const Vec2& at : p.position) {
+    x.push_back(at.x()), mean += at.x() / static_cast<double>(p.size());
+    CHECK(at.y() > 0);
+    if (at.x() < 2 * spacing) height = std::max(height, at.y() + 0.5 * spacing);
+  }
+  std::ranges::sort(x);
+  return {x[x.size() * 95 / 100], mean, height, energy.kinetic / (before - energy.gravity)};
+}
+
+double spacing_of(const std::string& name) { return scene(name).particles.spacing; }
+
+/// What experiments say of a column of width 1: how far its front comes (Lube et al. 2005, Lajeunesse et al.
+/// 2005), how high it stays at the wall (Lajeunesse et al. 2005), and with both the profile height (1 - x /
+/// front)^n that has the column's area.
+struct Law {
+  double front, height, power;
+  explicit Law(double aspect)
+      : front(1 + (aspect < 2 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3))),
+        height(aspect < 0.7 ? aspect : std::cbrt(aspect)),
+        power(height * front / aspect - 1) {}
+  double quantile(double part) const { return front * (1 - std::pow(1 - part, 1 / (power + 1))); }
+  double mean() const { return front / (power + 2); }
+};
+
+}  // namespace
+
+TEST_CASE("columns of sand go as far as in experiments", "[collapse]") {
+  constexpr double width = 0.1;
+  const auto [name, aspect] = GENERATE(
+      table<const char*, double>({{"collapse/wide", 0.5}, {"collapse/square", 1}, {"collapse/tall", 2}}));
+  const Deposit d = deposit_of(name);
+  const Law law(aspect);
+  const auto compare = [&](const std::string& quantity, double value, double expected, double allowed) {
+    CAPTURE(name, quantity, value, expected);
+    expect({.name = name,
+            .settings = {},
+            .quantity = quantity,
+            .reference = "deposit of the experiments' laws",
+            .resolution = metres(spacing_of(name))},
+           std::abs(value / expected - 1), allowed);
+  };
+  compare("95 % quantile of x", d.quantile95 / width, law.quantile(0.95), 0.15);
+  compare("mean of x", d.mean / width, law.mean(), 0.15);
+  compare("height left at the wall", d.height / width, law.height, 0.2);
+  CHECK(d.kinetic < 1e-4);
+}
