@@ -189,27 +189,45 @@ void rates(const Arrays& c, std::int32_t number) {
   }
 }
 
+/// What the step of a law reads and writes.
+struct StepArrays {
+  const double *xx, *xy, *yx, *yy;
+  double *stress, *density;
+  double half, dt;
+};
+
+/// In a function of its own: what a loop's body itself declares and hands on by reference stays in memory,
+/// and the loop does not become vector code.
+template <SoilLaw Law>
+[[gnu::always_inline]] inline void particle_step(const StepArrays& t, std::int32_t a, const Law& law,
+                                                 double* const* history) {
+  const Gradient gradient = step_gradient({t.xx[a], t.xy[a], t.yx[a], t.yy[a]}, t.half);
+  typename Law::History q = load_history<Law>(history, a);
+  const double* old = t.stress + 4 * a;
+  const Stress s = law.step(Stress{old[0], old[1], old[2], old[3]}, gradient, t.dt, q);
+  store_history<Law>(history, a, q);
+  double* now = t.stress + 4 * a;
+  now[0] = s.xx, now[1] = s.yy, now[2] = s.zz, now[3] = s.xy;
+  const double half_strain = t.half * gradient.trace();  // d(rho)/dt = -rho tr(D)
+  t.density[a] *= (1 - half_strain) / (1 + half_strain);
+}
+
 /// Effective stress and density of particles `first` to `last - 1`, which have this law.
 template <SoilLaw Law>
 void material_step(const Arrays& c, std::int32_t first, std::int32_t last, const LawView& view, double dt) {
-  const double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
-  const double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
-  double *stress = c.effective_stress, *density = c.own_density;
+  const StepArrays t{c.sum[Arrays::rate_xx],
+                     c.sum[Arrays::rate_xy],
+                     c.sum[Arrays::rate_yx],
+                     c.sum[Arrays::rate_yy],
+                     c.effective_stress,
+                     c.own_density,
+                     0.5 * dt,
+                     dt};
   const Law law = *static_cast<const Law*>(view.law);
   double* history[history_size<Law> + 1];
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k];
-  const double half = 0.5 * dt;
 #pragma omp simd
-  for (std::int32_t a = first; a < last; ++a) {
-    const Gradient gradient = step_gradient({xx[a], xy[a], yx[a], yy[a]}, half);
-    typename Law::History q = load_history<Law>(history, a);
-    const Stress s =
-        law.step({stress[4 * a], stress[4 * a + 1], stress[4 * a + 2], stress[4 * a + 3]}, gradient, dt, q);
-    store_history<Law>(history, a, q);
-    stress[4 * a] = s.xx, stress[4 * a + 1] = s.yy, stress[4 * a + 2] = s.zz, stress[4 * a + 3] = s.xy;
-    const double half_strain = half * gradient.trace();  // d(rho)/dt = -rho tr(D)
-    density[a] *= (1 - half_strain) / (1 + half_strain);
-  }
+  for (std::int32_t a = first; a < last; ++a) particle_step<Law>(t, a, law, history);
 }
 
 /// The same of a law that is called for all of them at once.
