@@ -113,12 +113,16 @@ std::string linked(const std::string& file, const std::string& description, bool
 
 std::string figure(const std::string& file, const std::string& description, const std::string& caption,
                    const std::vector<std::string>& panels) {
-  if (panels.size() < 2)
+  if (panels.empty())
     return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", linked(file, description, false),
                        escaped(caption));
   std::string narrow;
   for (std::size_t i = 0; i < panels.size(); ++i)
-    narrow += linked(panels[i], fmt::format("{}, {} of {}", description, i + 1, panels.size()), true) + "\n";
+    narrow += linked(panels[i],
+                     panels.size() == 1 ? description
+                                        : fmt::format("{}, {} of {}", description, i + 1, panels.size()),
+                     true) +
+              "\n";
   return fmt::format(
       "<figure><div class=\"wide\">{}</div>\n<div class=\"narrow\">\n{}</div>"
       "<figcaption>{}</figcaption></figure>\n",

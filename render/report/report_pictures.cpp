@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 
 constexpr int narrow = 480, instant_width = 900;  // pixels
 
-/// Names for the panels of a picture: "history_1.png", ...; none where there is one only.
+/// Names for the panels of a picture: "history_1.png", ...
 std::vector<std::string> panel_names(const std::string& stem, std::size_t panels) {
   std::vector<std::string> names;
-  for (std::size_t i = 1; panels > 1 && i <= panels; ++i) names.push_back(fmt::format("{}_{}.png", stem, i));
+  for (std::size_t i = 1; i <= panels; ++i) names.push_back(fmt::format("{}_{}.png", stem, i));
   return names;
 }
 
@@ -38,7 +38,7 @@ ReportPicture draw(const ContourFigure& figure, const fs::path& folder, const st
                    const std::string& description, const std::string& caption) {
   save_contours(figure, folder / (stem + ".png"));
   const std::vector<std::string> names = panel_names(stem, figure.panels.size());
-  if (!names.empty()) save_each_panel(figure, narrow, within(folder, names));
+  save_each_panel(figure, narrow, within(folder, names));
   return {stem + ".png", description, caption, names};
 }
 
@@ -137,15 +137,14 @@ ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
   panel.title = shown_name(field) + " at the start";
   ColourScale scale = scale_of(field, unit, run.scene, std::nullopt);
   scale.map = ColourMap::cividis;
-  save_contours({.title = run.scene->title, .panels = {std::move(panel)}, .scale = scale, .columns = 1},
-                folder / "case.png");
   std::string soils;
   for (const SoilCase& s : run.scene->soils) soils += (soils.empty() ? "" : ", ") + s.name;
-  return {
-      "case.png", "The case: soils, boundaries, water level and probes",
+  return draw(
+      ContourFigure{.title = run.scene->title, .panels = {std::move(panel)}, .scale = scale, .columns = 1},
+      folder, "case", "The case: soils, boundaries, water level and probes",
       fmt::format(
           "The case at the start: {} particles, soils: {}. Circles: rollers; hatched: fixed; blue: water.",
-          values.size(), soils)};
+          values.size(), soils));
 }
 
 ReportPicture draw_contours(const std::vector<LoadedRun>& runs, const std::optional<FemReference>& fem,

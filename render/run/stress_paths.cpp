@@ -151,6 +151,28 @@ std::pair<double, double> span_of(const std::vector<ChartSeries>& lines,
   return {low < 0 ? low - air : 0, high + air};
 }
 
+/// The strengths of the first run, and of those that have other ones, in their own colours.
+std::vector<ChartSeries> strengths_of(const std::vector<FinishedRun>& runs,
+                                      const std::vector<std::string>& labels, const Point& start,
+                                      PathKind kind, double low, double high) {
+  std::vector<ChartSeries> lines;
+  std::vector<std::vector<Strength>> drawn;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].scene) continue;
+    std::vector<Strength> strengths = strength_at(*runs[i].scene, start);
+    if (strengths.empty() || std::ranges::find(drawn, strengths) != drawn.end()) continue;
+    for (ChartSeries& line : envelopes(strengths, kind, low, high)) {
+      if (!drawn.empty()) {
+        line.colour = series_colour(i);
+        if (!line.label.empty()) line.label += ", " + labels[i];
+      }
+      lines.push_back(std::move(line));
+    }
+    drawn.push_back(std::move(strengths));
+  }
+  return lines;
+}
+
 std::optional<Chart> chart_at(const std::vector<FinishedRun>& runs, const std::vector<std::string>& labels,
                               const ProbeCase& probe, PathKind kind) {
   Chart chart = empty_chart(kind, probe);
@@ -172,9 +194,8 @@ std::optional<Chart> chart_at(const std::vector<FinishedRun>& runs, const std::v
   const auto [left, right] = span_of(chart.series, &ChartSeries::x);
   const double top = span_of(chart.series, &ChartSeries::y).second;
   chart.x.range = ValueRange{left, right};
-  const auto strengths = strength_at(*runs.front().scene, probe.position);
   double highest = top;
-  for (ChartSeries& line : envelopes(strengths, kind, left, right)) {
+  for (ChartSeries& line : strengths_of(runs, labels, probe.position, kind, left, right)) {
     highest = std::max(highest, std::min(line.y.back(), 2 * top));
     chart.series.push_back(std::move(line));
   }

@@ -22,6 +22,7 @@ StressPoint stress_point(const Stress& effective);
 struct Strength {
   double cohesion = 0, friction = 0;  ///< [Pa], [radians]
   bool undrained = false;             ///< of total stress: friction is 0
+  bool operator==(const Strength&) const = default;
 };
 /// Of the soil around a point at the start: peak, then what softening leaves. Empty where there is no soil or
 /// it has no strength.

@@ -96,6 +96,20 @@ TEST_CASE("soil at yield touches its strength in all three pictures", "[paths]")
         Approx((circle.x.front() - circle.x.back()) / 2));
 }
 
+TEST_CASE("runs of different strength have each their own line", "[paths]") {
+  const FinishedRun run = run_of({{}, {-10e3, -30e3, -10e3, 0}});
+  FinishedRun stronger = run;
+  stronger.scene->soils[0].strength.cohesion = 20e3;
+  const auto lines = [](const std::vector<FinishedRun>& runs) {
+    return stress_paths(runs, {"a", "b"}, PathKind::st)[0].series;
+  };
+  CHECK(lines({run, run}).size() == 3);
+  const auto both = lines({run, stronger});
+  REQUIRE(both.size() == 4);
+  CHECK(both[3].label.ends_with(", b"));
+  CHECK(both[3].y[0] == Approx(20 * std::cos(30 * degree) + both[3].x[0] * std::sin(30 * degree)));
+}
+
 TEST_CASE("undrained strength grows with depth and has what softening leaves", "[paths]") {
   const FinishedRun run = run_of({{}});
   const auto found = strength_at(*run.scene, {2, 3});
