@@ -115,7 +115,7 @@ void check_owner(const fs::path& folder, const std::string& case_text, bool resu
         folder.string()));
 }
 
-void extend_run(const fs::path& folder, const std::string& case_text, const std::string& state) {
+void extend_run(const fs::path& folder, const std::string& case_text, const StateBytes& state) {
   write_checkpoint(folder, case_text, state);  // that of the earlier end stays beside it
   remove_file(folder / summary_name);
   write_file(folder / case_name, case_text);
@@ -168,7 +168,7 @@ void Results::frame([[maybe_unused]] Simulation& s) {
 #endif
 }
 
-void Results::checkpoint(const std::string& state) {
+void Results::checkpoint(const StateBytes& state) {
   history_.sync();  // the rows up to here must not be lost when the state is kept
   write_checkpoint(folder_, case_text_, state);
 }
@@ -182,7 +182,7 @@ WrittenFiles Results::written() const {
   return written;
 }
 
-void Results::finish(const Summary& summary, const std::string& state) {
+void Results::finish(const Summary& summary, const StateBytes& state) {
   history_.sync();
   write_summary(folder_ / summary_name, summary);
   if (summary.status == RunStatus::completed)

@@ -26,7 +26,7 @@ void take_folder(const std::filesystem::path& folder, const std::string& case_te
 /// Makes the interrupted or finished run of `folder` one of this case, which differs in its end and time step
 /// only; `state` is its checkpoint. Killed at any moment it leaves a run that can be resumed. Throws
 /// WriteError.
-void extend_run(const std::filesystem::path& folder, const std::string& case_text, const std::string& state);
+void extend_run(const std::filesystem::path& folder, const std::string& case_text, const StateBytes& state);
 
 /// How a run of the folder ended, if it is done and not interrupted.
 std::optional<Summary> finished_summary(const std::filesystem::path& folder);
@@ -46,10 +46,10 @@ class Results {
 
   void frame(Simulation& simulation);
   void row(const std::vector<double>& values) { history_.append(values); }
-  void checkpoint(const std::string& state);
+  void checkpoint(const StateBytes& state);
   WrittenFiles written() const;
   /// `state`: a checkpoint at the end, kept where the run came to rest, for other runs to start from.
-  void finish(const Summary& summary, const std::string& state);
+  void finish(const Summary& summary, const StateBytes& state);
 
  private:
   std::filesystem::path folder_;

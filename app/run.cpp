@@ -146,6 +146,14 @@ std::optional<LeftOff> restore(const std::filesystem::path& folder, const Task& 
 }
 
 /// The folder's files, continued or new.
+/// Of the run as it is when they are asked for.
+StateBytes state_bytes(LeftOff left_off, StagedRun& stages) {
+  return [left_off, &stages](const ByteSink& sink) mutable {
+    StatePourer state(sink);
+    left_off.visit(state, stages);
+  };
+}
+
 Results open_results(const Options& o, const Case& scene, const Simulation& simulation,
                      const std::optional<LeftOff>& left_off) {
   if (!left_off) return {o.folder, scene, simulation, o.frames};
@@ -224,9 +232,7 @@ int run_command(const Arguments& arguments) {
   const auto left_off = options->resume ? restore(options->folder, task, stages) : std::optional<LeftOff>();
   Results results = open_results(*options, task.scene, stages.simulation(), left_off);
   if (left_off && task.earlier) {
-    StateWriter state;
-    LeftOff(*left_off).visit(state, stages);
-    extend_run(options->folder, task.case_text, state.content());
+    extend_run(options->folder, task.case_text, state_bytes(*left_off, stages));
   }
   if (!options->quiet) tell_beginning(*options, stages, left_off.has_value());
 
@@ -236,9 +242,7 @@ int run_command(const Arguments& arguments) {
   };
   Interval since_checkpoint(options->checkpoint_every);
   const auto state_with = [&](const RunProgress& p) {
-    StateWriter state;
-    LeftOff{p, results.written(), wall_seconds()}.visit(state, stages);
-    return state.content();
+    return state_bytes({p, results.written(), wall_seconds()}, stages);
   };
   const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {
     if (!ending && !since_checkpoint.over()) return;
@@ -273,7 +277,7 @@ int run_command(const Arguments& arguments) {
   Summary summary = summarise(stages, outcome, wall_seconds());
   summary.finite_elements = check_by_fem(stages.simulation(), summary);
   summary.warnings = warnings;
-  results.finish(summary, outcome.status == RunStatus::equilibrium ? state_with(so_far) : "");
+  results.finish(summary, state_with(so_far));
   if (!options->quiet) say(stdout, tell(summary));
   warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)

@@ -55,17 +55,20 @@ bool take_text(std::string_view& rest, std::string_view& text) {
   return true;
 }
 
-std::uint32_t checksum(std::initializer_list<std::string_view> parts) {
+std::uint32_t checksum_of(std::string_view bytes) {
   Checksum sum;
-  for (const std::string_view part : parts) sum.add(part);
+  sum.add(bytes);
   return sum.value();
 }
 
 }  // namespace
 
-void StateWriter::bytes(std::string_view name, void* data, std::size_t size) {
-  put_text(content_, name);
-  put_text(content_, {static_cast<const char*>(data), size});
+void StatePourer::bytes(std::string_view name, void* data, std::size_t size) {
+  std::string head;
+  put_text(head, name);
+  put(head, static_cast<std::uint64_t>(size));
+  sink_(head);
+  sink_({static_cast<const char*>(data), size});
 }
 
 void StateReader::bytes(std::string_view name, void* data, std::size_t size) {
@@ -82,20 +85,24 @@ void StateReader::finish() const {
   if (!rest_.empty()) throw StateError("the saved state continues after its end");
 }
 
-void write_checkpoint(const fs::path& folder, std::string_view case_text, const std::string& state) {
-  std::string front, middle;
+void write_checkpoint(const fs::path& folder, std::string_view case_text, const StateBytes& state) {
+  std::uint64_t size = 0;
+  state([&](std::string_view part) { size += part.size(); });
+  std::string front(magic), middle;
   put_text(middle, case_text);
-  put(middle, static_cast<std::uint64_t>(state.size()));
-  front = magic;
+  put(middle, size);
+  Checksum sum;
+  sum.add(middle);
+  state([&](std::string_view part) { sum.add(part); });
   put(front, version);
-  put(front, checksum({middle, state}));
+  put(front, sum.value());
 
   const fs::path newest = folder / newest_name;
   replace_file(newest, [&](const fs::path& temporary) {
     Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL, newest);
-    for (const std::string_view part :
-         {std::string_view(front), std::string_view(middle), std::string_view(state)})
-      file.write(part);
+    file.write(front);
+    file.write(middle);
+    state([&](std::string_view part) { file.write(part); });
     std::error_code error;
     fs::rename(newest, folder / previous_name, error);
     if (error && error != std::errc::no_such_file_or_directory) throw WriteError(newest, error.message());
@@ -116,7 +123,7 @@ std::string read_checkpoint(const fs::path& file, std::string_view case_text) {
   if (!take(rest, its_version) || !take(rest, its_checksum)) throw ReadError(file, "it is cut short");
   if (its_version != version)
     throw ReadError(file, fmt::format("its format is {}, this program's is {}", its_version, version));
-  if (checksum({rest}) != its_checksum) throw ReadError(file, "it is damaged: its checksum is not right");
+  if (checksum_of(rest) != its_checksum) throw ReadError(file, "it is damaged: its checksum is not right");
   std::string_view its_case, state;
   if (!take_text(rest, its_case) || !take_text(rest, state) || !rest.empty())
     throw ReadError(file, "it is damaged: its lengths do not fit");

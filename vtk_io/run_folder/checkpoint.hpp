@@ -2,22 +2,39 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "solver/particles/state.hpp"
 
 namespace porosph {
 
-/// Collects a state in memory.
-class StateWriter final : public StateArchive {
+/// Takes bytes, one part after the other.
+using ByteSink = std::function<void(std::string_view)>;
+/// Gives a state's bytes to a sink, the same ones each time that it is called.
+using StateBytes = std::function<void(const ByteSink&)>;
+
+/// Hands a state on, item by item: a copy of it would take as much memory as the particles.
+class StatePourer : public StateArchive {
  public:
+  explicit StatePourer(ByteSink sink) : sink_(std::move(sink)) {}
   bool restoring() const override { return false; }
-  const std::string& content() const { return content_; }
 
  private:
   void bytes(std::string_view name, void* data, std::size_t size) override;
+  ByteSink sink_;
+};
+
+/// Collects a state in memory.
+class StateWriter final : public StatePourer {
+ public:
+  StateWriter() : StatePourer([this](std::string_view part) { content_.append(part); }) {}
+  const std::string& content() const { return content_; }
+
+ private:
   std::string content_;
 };
 
@@ -36,7 +53,7 @@ class StateReader final : public StateArchive {
 /// Keeps a state in the folder, and the one before it. At every moment one of them is whole. `case_text` is
 /// the complete case as write_case gives it, to which the state belongs. Throws WriteError.
 void write_checkpoint(const std::filesystem::path& folder, std::string_view case_text,
-                      const std::string& state);
+                      const StateBytes& state);
 
 bool has_checkpoint(const std::filesystem::path& folder);
 

@@ -11,11 +11,12 @@ namespace {
 /// disorder and walls at corners other than upright ones with the soil between them.
 double strength(const FormulationCase& formulation, const Model& model, bool cut,
                 const ReferenceConfiguration& r, const OwnSides& sides) {
-  constexpr double usual = 0.1, more = 0.6;  // docs/theory.md says what they do
+  constexpr double little = 0.1, usual = 0.2, more = 0.6;  // docs/theory.md says what they do
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
-  if (r.closed() || !model.visibility.everywhere())
-    return std::ranges::any_of(model.soils, &Soil::may_yield) ? usual : more;
-  return !sides.empty() || cut ? usual : 0;
+  const bool elastic = std::ranges::none_of(model.soils, &Soil::may_yield);
+  if (r.closed() || !model.visibility.everywhere()) return elastic ? more : little;
+  if (!sides.empty()) return elastic ? usual : little;
+  return cut ? little : 0;
 }
 
 }  // namespace

@@ -156,11 +156,20 @@ TEST_CASE("a state of something else is refused", "[checkpoint]") {
   CHECK_THROWS_AS(longer.finish(), StateError);
 }
 
+namespace {
+
+StateBytes poured(std::string state) {
+  return [state = std::move(state)](const ByteSink& sink) { sink(state); };
+}
+
+}  // namespace
+
 TEST_CASE("a folder keeps the newest state and the one before it", "[checkpoint]") {
   const TemporaryFolder folder;
   CHECK_FALSE(has_checkpoint(folder.path()));
   CHECK_FALSE(find_state(folder.path(), case_text));
-  for (const char* state : {"first", "second", "third"}) write_checkpoint(folder.path(), case_text, state);
+  for (const char* state : {"first", "second", "third"})
+    write_checkpoint(folder.path(), case_text, poured(state));
   CHECK(has_checkpoint(folder.path()));
   CHECK(find_state(folder.path(), case_text)->state == "third");
   CHECK(find_state(folder.path(), case_text)->note.empty());
@@ -173,8 +182,8 @@ TEST_CASE("a folder keeps the newest state and the one before it", "[checkpoint]
 
 TEST_CASE("a checkpoint damaged anywhere is passed over for the one before it", "[checkpoint]") {
   const TemporaryFolder folder;
-  write_checkpoint(folder.path(), case_text, "first");
-  write_checkpoint(folder.path(), case_text, "second");
+  write_checkpoint(folder.path(), case_text, poured("first"));
+  write_checkpoint(folder.path(), case_text, poured("second"));
   const std::string previous = content(folder / "checkpoint.previous.bin"),
                     sound = content(folder / "checkpoint.bin");
   const auto check_fallback = [&](const std::string& damaged) {
@@ -197,23 +206,23 @@ TEST_CASE("a checkpoint damaged anywhere is passed over for the one before it", 
 
 TEST_CASE("where no checkpoint is left, one message says why", "[checkpoint]") {
   const TemporaryFolder folder;
-  write_checkpoint(folder.path(), case_text, "first");
+  write_checkpoint(folder.path(), case_text, poured("first"));
   CHECK_THROWS_WITH(find_state(folder.path(), "title = \"Another\"\n"),
                     Contains("checkpoint.bin") && Contains("belongs to another case"));
   put(folder / "checkpoint.bin", "");
   CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("it is not a checkpoint"));
   put(folder / "checkpoint.bin", std::string("Porosph checkpoint\n\x09\0\0\0\0\0\0\0", 27));
-  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("its format is 9, this program's is 2"));
+  CHECK_THROWS_WITH(find_state(folder.path(), case_text), Contains("its format is 9, this program's is 3"));
   put(folder / "checkpoint.previous.bin", "rubbish");
   CHECK_THROWS_AS(find_state(folder.path(), case_text), ReadError);
 }
 
 TEST_CASE("on a full disk the checkpoint before stays", "[checkpoint]") {
   const TemporaryFolder folder;
-  write_checkpoint(folder.path(), case_text, "first");
+  write_checkpoint(folder.path(), case_text, poured("first"));
   {
     const FileSizeLimit limit(1000);
-    CHECK_THROWS_WITH(write_checkpoint(folder.path(), case_text, std::string(5000, 'x')),
+    CHECK_THROWS_WITH(write_checkpoint(folder.path(), case_text, poured(std::string(5000, 'x'))),
                       Contains("checkpoint.bin") && Contains("File too large"));
   }
   CHECK(find_state(folder.path(), case_text)->state == "first");
