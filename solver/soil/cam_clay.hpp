@@ -18,6 +18,8 @@ namespace porosph {
 ///
 /// The base's moduli are the most that the soil may reach: they set the time step.
 struct CamClay : Elasticity {
+  static constexpr bool stiffness_varies = true;  ///< with the state: see FlowView
+
   struct History {
     double plastic_strain = 0;
     double opening = 0;

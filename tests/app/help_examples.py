@@ -14,6 +14,8 @@ import tempfile
 FOUNDATION = ["porosph run foundation --quiet"]
 PREPARED = {
     "render": FOUNDATION, "section": FOUNDATION, "history": FOUNDATION, "grid": FOUNDATION,
+    "profile": ["porosph run collapse/square --quiet --set time.end=0.05 --out results/column_collapse",
+                "cp -r results/column_collapse results/coarse; cp -r results/column_collapse results/fine"],
     "compare": [f"porosph run foundation --quiet --set formulation.motion={form} --out results/{form}"
                 for form in ("conventional", "proposed")] +
                ["porosph run embankment --quiet --out results/a", "porosph fem embankment --out results/embankment_fem",

@@ -21,7 +21,7 @@ std::set<std::string> subcommands(const Workplace& place) {
 }
 
 std::set<std::string> long_options(const std::string& text) {
-  const std::regex option("\n  (?:-[a-z] \\[ )?(--[a-z-]+)");
+  const std::regex option("\n  (?:-[a-z] \\[ )?(--[a-z0-9-]+)");
   std::set<std::string> names;
   for (std::sregex_iterator i(text.begin(), text.end(), option), end; i != end; ++i) names.insert((*i)[1]);
   return names;

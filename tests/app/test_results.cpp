@@ -122,7 +122,7 @@ TEST_CASE("compare interpolates between runs of different spacing") {
 
 TEST_CASE("the key label names a run, where the command line does not") {
   const Workplace& place = computed();
-  REQUIRE(place.porosph("run small.toml --quiet --out named --set 'label=as \"built\"'").status == 0);
+  REQUIRE(place.porosph("run small.toml --quiet --out named --set \"label='as \\\"built\\\"'\"").status == 0);
   CHECK_THAT(place.porosph("compare named shorter --time common --out by_label").out,
              Contains("as \"built\" at 0.5 s and shorter at 0.5 s"));
   CHECK_THAT(place.porosph("compare named shorter --time common --label a --label b --out by_option").out,

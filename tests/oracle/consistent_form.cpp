@@ -155,9 +155,8 @@ class ConsistentForm {
       force += 2 * mu * g.norm() / to_b.norm() * rest;
 
       const Vec2& in_front = now_.particles.position[b.particle];
-      const double p_b = b.real()
-                             ? now_.particles.pore_pressure[b.particle]
-                             : now_.water.pore_pressure(in_front.x(), place_behind(b.walls, in_front).y());
+      const double p_b = b.real() ? now_.particles.pore_pressure[b.particle]
+                                  : pressure_of_image(now_.water, in_front, place_behind(b.walls, in_front));
       pressure += (p_b - now_.particles.pore_pressure[a]) * g;
     });
     const Mat2& f = deformation_[a];

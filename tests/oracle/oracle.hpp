@@ -14,6 +14,15 @@ struct Result {
   std::vector<Mat2> velocity_gradient;  ///< dv_i/dx_j [1/s]
 };
 
+/// p_w of the image at `image` of a particle at `root` [Pa]. Where the level passes between them, the mean of
+/// both is p_w at the wall.
+inline double pressure_of_image(const StandingWater& water, const Vec2& root, const Vec2& image) {
+  const double x = root.x(), middle = 0.5 * (root.y() + image.y());
+  const bool passes = (water.depth(x, root.y()) > 0) != (water.depth(x, image.y()) > 0);
+  return passes ? 2 * water.pore_pressure(x, middle) - water.pore_pressure(x, root.y())
+                : water.pore_pressure(x, image.y());
+}
+
 /// Eqs. (14), (15), (17), (24) and (25) with C_ab. The virtual particles of fixed walls belong to the soil as
 /// it lay in `start`.
 Result paper_form(const FormulationCase& formulation, const Model& start, const Model& now);

@@ -73,7 +73,7 @@ class PaperForm {
   Point ghost(const SeenParticle& seen) const {
     Point b = particle(seen.particle);
     const Mat2 turn = turn_behind(seen.walls);
-    b.pressure = now_.water.pore_pressure(b.x.x(), place_behind(seen.walls, b.x).y());
+    b.pressure = pressure_of_image(now_.water, b.x, place_behind(seen.walls, b.x));
     b.x = place_behind(seen.walls, b.x);
     b.v = turn * b.v;
     b.stress = turn * b.stress * turn.transpose();

@@ -62,9 +62,10 @@ TEST_CASE("under water the conventional form fails, the others do not") {
   CHECK(map.at("0", "eq. (17)").outcome == accurate);
   CHECK(map.at("15", "eq. (17)").outcome == inaccurate);
   CHECK(map.at("15", "eq. (17)").error > 0.8);
-  // Which of the two is found first in a column of a few particles is a matter of rounding.
+  // Soil that has come apart bears nothing until it has closed: rows that are thrown off fall back for ever.
+  // Which of the three is found first in a column of a few particles is a matter of rounding.
   const auto no_tension = map.at("15", "eq. (17), no tension").outcome;
-  CHECK((no_tension == thrown_out || no_tension == unstable));
+  CHECK((no_tension == thrown_out || no_tension == unstable || no_tension == not_settled));
 }
 
 TEST_CASE("eq. (14) fails below a density ratio of 0.5, the others do not") {

@@ -34,7 +34,7 @@ void ConsistentDynamics::prepare() {
   if (!reference_.made())
     flow_ = FlowingSoil(model_, control_.viscosity);
   else if (flow_.active())
-    flow_.settle(model_);
+    flow_.settle(model_, surroundings_);
   rebuild_reference();
   fluxes_.take_velocities(reference_, model_.particles);
   strain_all(0);
@@ -199,6 +199,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
     connect_arrays();
     fluxes_.take_velocities(reference_, p);
   }
+  surroundings_.visit(state, model_);
   fluxes_.visit(state, reference_);
   spring_.visit(state, p.size());
   state.value("largest_strain", since_.strain);

@@ -5,6 +5,7 @@
 
 #include "solver/space/parallel.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
+#include "solver/sph/kernel/cubic_spline.hpp"
 
 namespace porosph {
 namespace {
@@ -37,13 +38,9 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   shear_rate_.assign(p.size(), 0);
 }
 
-void FlowingSoil::settle(Model& model) {
+void FlowingSoil::settle(Model& model, Surroundings& surroundings) {
   has_flowed_ = true;
-  Particles& p = model.particles;
-  for (std::size_t a = 0; a < p.size(); ++a) {
-    p.position[a] += moves_[a];
-    work_.shift -= p.mass[a] * model.gravity.dot(moves_[a]);
-  }
+  even_out(model, surroundings.find(model));
   update_density(model);
 }
 
@@ -60,23 +57,39 @@ void FlowingSoil::update_density(Model& model) const {
 
 /// Inside the soil down the gradient of sum V W (Lind et al. 2012), not near its surface; and pairs that are
 /// nearer than half of the spacing apart, also from their images.
-Vec2 FlowingSoil::evening_move(const ReferenceConfiguration& r, const Model& model, std::int32_t a) const {
+void FlowingSoil::even_out(Model& model, const SeenNeighbours& seen) {
   constexpr double strength = 0.5, farthest = 0.02, inside = 0.95, share = 0.1;
-  const double dx = model.spacing, nearest = 0.5 * dx, h = model.smoothing_length;
-  Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
-  Mat2 sum = Mat2::Zero();
-  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    const Vec2 way = r.points[b] - r.points[a];
-    crowd += Vec2(g.x, g.y), sum += Vec2(g.x, g.y) * way.transpose();
-    if (const double squared = way.squaredNorm(); squared < nearest * nearest && squared > 0)
-      apart -= share * (nearest / std::sqrt(squared) - 1) * way;
-  });
-  const double half = 0.5 * (sum(0, 0) - sum(1, 1));
-  const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::hypot(half, sum(0, 1));
-  if (least <= inside) return apart;
-  const Vec2 move = -strength * h * h * crowd;
-  const double far = move.norm();
-  return apart + (far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move);
+  Particles& p = model.particles;
+  const CubicSpline<2> kernel(model.smoothing_length);
+  const std::size_t n = p.size();
+  std::vector<Vec2> moves(n, Vec2::Zero());
+  const double dx = model.spacing, nearest = 0.5 * dx, h2 = model.smoothing_length * model.smoothing_length;
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    if (!model.soils[p.soil[a]].flows()) continue;
+    Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
+    Mat2 sum = Mat2::Zero();
+    for (const std::int32_t b : seen.list.of(a)) {
+      const std::size_t root = static_cast<std::size_t>(b) < n ? b : seen.ghosts.root(b - n);
+      const Vec2 way = seen.points[b] - seen.points[a];
+      const double distance = way.norm(), volume = p.volume(root) / p.fill[root];
+      const Vec2 g = -volume * kernel.slope(distance) * way;
+      crowd += g, sum += g * way.transpose();
+      if (distance > 0 && distance < nearest) apart -= share * (nearest / distance - 1) * way;
+    }
+    const double half = 0.5 * (sum(0, 0) - sum(1, 1));
+    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::hypot(half, sum(0, 1));
+    if (least > inside) {
+      const Vec2 move = -strength * h2 * crowd;
+      const double far = move.norm();
+      apart += far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move;
+    }
+    moves[a] = apart;
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    p.position[a] += moves[a];
+    work_.shift -= p.mass[a] * model.gravity.dot(moves[a]);
+  }
 }
 
 void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
@@ -85,7 +98,6 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   at_walls_.clear();
   blind_.assign(n, 0);
   correction_.resize(n);
-  moves_.assign(n, Vec2::Zero());
   std::vector<std::uint8_t> is_at_wall(n);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
@@ -101,7 +113,6 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     });
     correction_[a] = ghosts ? correction_matrix(sum) : r.correction[a];
     blind_[a] = is_at_wall[a] && soil >= fewest_neighbours;
-    if (model.soils[model.particles.soil[a]].flows()) moves_[a] = evening_move(r, model, a);
   }
   for (std::int32_t a = 0; a < n; ++a)
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);

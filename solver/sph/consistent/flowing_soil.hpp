@@ -23,9 +23,9 @@ class FlowingSoil {
   bool active() const { return !rest_density_.empty(); }
   bool has_flowed() const { return has_flowed_; }  ///< since the start a reference has been rebuilt
 
-  /// Before a reference is rebuilt: density by the law, and the moves that even out the arrangement.
-  void settle(Model& model);
-  /// After that: these moves as the new reference has them, and what sums over the soil alone need.
+  /// Before a reference is rebuilt: density by the law, and particles moved to even out their arrangement.
+  void settle(Model& model, Surroundings& surroundings);
+  /// After that: what sums over the soil alone need.
   void take(const ReferenceConfiguration& reference, const Model& model);
 
   /// Diffuses over a step dt [s] what of the stress is not linear, with D = 10 h^2 times the shear rate of
@@ -65,7 +65,7 @@ class FlowingSoil {
 
  private:
   void update_density(Model& model) const;
-  Vec2 evening_move(const ReferenceConfiguration& reference, const Model& model, std::int32_t a) const;
+  void even_out(Model& model, const SeenNeighbours& seen);
   Mat2 own_gradient(const ReferenceConfiguration& reference, const Particles& particles,
                     std::int32_t a) const;
   Mat2 gradient_with_walls(const ReferenceConfiguration& reference, const Particles& particles,
@@ -73,7 +73,6 @@ class FlowingSoil {
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
   std::vector<double> viscosity_, shear_rate_;
-  std::vector<Vec2> moves_;             ///< that even out the arrangement of the reference [m]
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those

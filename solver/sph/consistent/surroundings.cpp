@@ -80,10 +80,14 @@ bool Surroundings::candidates_hold(const Model& model) const {
   return farthest < 0.25 * skin_ * skin_;
 }
 
-/// Each ghost moves as far as the particle that it stems from, so particles stand for their ghosts as well.
 void Surroundings::look_for_candidates(const Model& model) {
   searched_at_ = model.particles.position;
   ++searches_;
+  search_where_they_were(model);
+}
+
+/// Each ghost moves as far as the particle that it stems from, so particles stand for their ghosts as well.
+void Surroundings::search_where_they_were(const Model& model) {
   std::vector<Vec2> points = searched_at_;
   std::vector<Image> images;
   append_images(model.walls, 0, model.walls.size(), support_ + skin_, points, images, skin_);
@@ -98,6 +102,21 @@ void Surroundings::look_for_candidates(const Model& model) {
     std::sort(list.begin() + first, list.end());
     list.erase(std::unique(list.begin() + first, list.end()), list.end());
   });
+}
+
+/// So that a run that is resumed searches as often as one that was not interrupted.
+void Surroundings::visit(StateArchive& state, const Model& model) {
+  bool have_candidates = !searched_at_.empty();
+  state.value("asked_before", asked_before_);
+  state.value("searches", searches_);
+  state.value("have_candidates", have_candidates);
+  if (!have_candidates) {
+    searched_at_.clear();
+    return;
+  }
+  searched_at_.resize(model.particles.size());
+  state.array("searched_at", searched_at_);
+  if (state.restoring()) search_where_they_were(model);
 }
 
 /// As find_neighbours has them, to the order.

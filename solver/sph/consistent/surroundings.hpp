@@ -6,6 +6,7 @@
 
 #include "solver/boundary/ghosts.hpp"
 #include "solver/model/model.hpp"
+#include "solver/particles/state.hpp"
 #include "solver/sph/consistent/pair_stencils.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
@@ -33,10 +34,12 @@ class Surroundings {
   bool strangers_are_near(const Model& model, const PairStencils& stencils);
 
   std::int64_t searches() const { return searches_; }  ///< so far
+  void visit(StateArchive& state, const Model& model);
 
  private:
   bool candidates_hold(const Model& model) const;
   void look_for_candidates(const Model& model);
+  void search_where_they_were(const Model& model);
   SeenNeighbours found_anew(const Model& model);
   NeighbourList near_candidates(const SeenNeighbours& seen, std::size_t particles) const;
 

@@ -146,8 +146,11 @@ template <class Space, SoilLaw<Space> Law>
                                                        const typename Law::History& q,
                                                        const GradientIn<Space>& g, double density,
                                                        double yields) {
+  // Where stiffness follows the state, stress alternates from particle to particle in elastic soil as well.
+  constexpr bool always = requires { Law::stiffness_varies; };
   if constexpr (YieldingLaw<Law, Space>)
-    return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q), yields);
+    return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q),
+                               always ? 1 : yields);
   t.shear_rate[i] = 0;
   return t.viscosity[i] = t.mu;
 }

@@ -163,7 +163,8 @@ TEST_CASE("damping is a number or adaptive") {
         "\"adaptive\"; did "
         "you mean 'adaptive'?");
   CHECK(errors_with("[loading]\ndamping = true\n") ==
-        "box.toml:21:11: key 'loading.damping' = true: must be a number");
+        "box.toml:21:11: key 'loading.damping' = true: must be a number, or text of a number and a unit; "
+        "allowed are %");
 }
 
 TEST_CASE("each momentum form brings its own artificial terms") {
