@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/space/parallel.hpp"
-
 namespace porosph {
 namespace {
 
@@ -30,7 +28,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 }
 
 void ConsistentDynamics::prepare() {
-  if (reference_.made() && !strangers_are_near() && !is_deformed()) return;
+  const bool deformed = since_.strain > formulation_.refresh_strain;
+  if (reference_.made() && !strangers_are_near() && !deformed) return;
   if (!reference_.made())
     flow_ = FlowingSoil(model_, control_.viscosity);
   else if (flow_.active())
@@ -92,20 +91,6 @@ bool ConsistentDynamics::strangers_are_near() {
   const bool found = surroundings_.strangers_are_near(model_, reference_.stencils);
   counts.searches = surroundings_.searches();
   return found;
-}
-
-/// Where soil flows, single particles at its tip are strained much more than the others. As long as they are
-/// few they may wait, up to a larger strain.
-bool ConsistentDynamics::is_deformed() const {
-  constexpr double few = 0.02, larger = 2.5;
-  const double limit = formulation_.refresh_strain;
-  if (since_.strain <= limit) return false;
-  if (!flow_.active() || since_.strain > larger * limit) return true;
-  const std::size_t n = model_.particles.size();
-  const double deformed = deterministic_sum(n, [&](std::size_t a) {
-    return (fluxes_.deformation(a) - Mat2::Identity()).cwiseAbs().maxCoeff() > limit ? 1.0 : 0.0;
-  });
-  return deformed > few * static_cast<double>(n);
 }
 
 /// Carries all particles over a step dt with the velocities taken; dt = 0 only writes the fluxes.

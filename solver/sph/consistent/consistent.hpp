@@ -38,7 +38,6 @@ class ConsistentDynamics final : public Dynamics {
   void rebuild_reference();
   void connect_arrays();
   bool strangers_are_near();
-  bool is_deformed() const;
   LargestChange strain_all(double dt);
   Mat2 own_strain(std::size_t particle) const;
 
