@@ -33,6 +33,9 @@ NeighbourList collected(std::size_t count, Append&& append) {
     std::vector<std::int32_t>& mine = of_thread[static_cast<std::size_t>(omp_get_thread_num())];
     const auto [first, last] = thread_range(count);
     for (std::size_t a = first; a < last; ++a) {
+      // Room for as many as the first ones have: a vector that doubles holds three times the list for a
+      // moment.
+      if (a == first + 1024) mine.reserve(21 * mine.size() / (20 * 1024) * (last - first));
       const auto before = std::ssize(mine);
       append(a, mine);
       list.begin[a + 1] = std::ssize(mine) - before;
