@@ -72,7 +72,7 @@ struct Summary {
     double control = 0;         ///< by the zero-energy control
     double diffusion = 0;       ///< by the diffusion of stress
     double bulk_viscosity = 0;  ///< by bulk viscosity
-    double unaccounted = 0;     ///< the rest: damping, and what the integration loses or gains
+    double unaccounted = 0;     ///< the rest: at walls, and what the integration loses or gains
   };
   std::optional<EnergyBudget> energy;
   /// What water did that flows.

@@ -1,12 +1,17 @@
 #include "solver/run/energy_budget.hpp"
 
+#include <algorithm>
+
 #include "solver/sph/consistent/flowing_soil.hpp"
 
 namespace porosph {
 
 std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start) {
   const FlowingSoil* flow = simulation.dynamics().flow();
-  if (flow == nullptr) return std::nullopt;
+  const LoadingCase& loading = simulation.scene().loading;
+  if (flow == nullptr || loading.adaptive_damping || loading.damping > 0 ||
+      std::ranges::any_of(simulation.model().soils, &Soil::stiffness_varies))
+    return std::nullopt;
   const Simulation::Energy now = simulation.energy();
   const FlowingSoil::Work& work = flow->work();
   Summary::EnergyBudget budget{.released = -(now.gravity + now.water) + work.shift,

@@ -61,6 +61,14 @@ const Elasticity& Soil::elastic() const {
   return std::visit([](const auto& law) -> const Elasticity& { return elastic_part(law); }, law_);
 }
 
+bool Soil::stiffness_varies() const {
+  return std::visit(
+      []<class Law>(const Law&) {
+        return requires { Law::stiffness_varies; };
+      },
+      law_);
+}
+
 bool Soil::may_yield() const {
   return std::visit([](const auto& law) { return yields(law); }, law_);
 }

@@ -34,6 +34,8 @@ class Soil {
   double mobilised_strength(const Particles& particles, std::size_t a) const;
   /// Modulus M of one-dimensional compression of a particle now [Pa].
   double stiffness(const Particles& particles, std::size_t a) const;
+  /// The law's stiffness follows its state: its energy is not that of the largest moduli.
+  bool stiffness_varies() const;
   /// Volume strain without what has opened, beyond that of elastic soil with the law's largest moduli.
   double plastic_dilation(const Particles& particles, std::size_t a) const;
   /// Friction angle at which the particle's stress would be on the yield surface, where the cone's apex stays
