@@ -31,7 +31,7 @@ struct PrincipalStress {
 struct Returned {
   PrincipalStress stress;
   double plastic_strain;  ///< sqrt(2/3 de : de), e deviatoric
-  double opening;         ///< volume strain at the apex
+  double opening;         ///< volume strain at the apex and across the tension cut-off
   double dilation;        ///< volume strain of what led there
 };
 
@@ -62,8 +62,9 @@ struct Returned {
   const double mean = (b1 + b2 + b3) / 3, apex = m.apex();
   const bool at_apex = mean > apex || b1 > apex;
   const double dilation = ((a.s1 + a.s2 + a.s3) / 3 - mean) / e.bulk_modulus;
-  const double opening = at_apex ? (mean - apex) / e.bulk_modulus : 0;
+  const double at_tip = at_apex ? mean - apex : 0;
   b1 = at_apex ? apex : b1, b2 = at_apex ? apex : b2, b3 = at_apex ? apex : b3;
+  const double uncut = b1 + b2 + b3;
   // Across the cut-off the soil opens along s1, until s1 and s3 are on the surface together.
   const double cut = b1 > m.tension ? b1 - m.tension : 0, along = cut * lambda / (lambda + g2);
   const double corner = (plus * m.tension - 2 * m.c_cos_phi) / minus, least = b3 < corner ? b3 : corner;
@@ -72,6 +73,7 @@ struct Returned {
   b1 -= cut;
   b2 = cut > 0 ? (lowered2 < b1 ? lowered2 : b1) : b2;
   b3 = cut > 0 ? (lowered3 < b1 ? lowered3 : b1) : b3;
+  const double opening = (at_tip + (uncut - b1 - b2 - b3) / 3) / e.bulk_modulus;
   const double d1 = a.s1 - b1, d2 = a.s2 - b2, d3 = a.s3 - b3, third = (d1 + d2 + d3) / 3;
   const double squared =
       (d1 - third) * (d1 - third) + (d2 - third) * (d2 - third) + (d3 - third) * (d3 - third);

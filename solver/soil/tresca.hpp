@@ -11,8 +11,10 @@ struct Tresca : Elasticity {
   struct History {
     double plastic_strain = 0;
     double undrained_strength = 0;  ///< before softening and reduction [Pa]
+    double opening = 0;
   };
-  static constexpr std::array<Field, 2> history{law_fields::plastic_strain, law_fields::undrained_strength};
+  static constexpr std::array<Field, 3> history{law_fields::plastic_strain, law_fields::undrained_strength,
+                                                law_fields::opening};
 
   double strength = 0;                                  ///< c_u at the level and above [Pa]
   double growth = 0;                                    ///< below it, with depth [Pa/m]
@@ -24,7 +26,7 @@ struct Tresca : Elasticity {
 
   History at_start(const Vec2& position) const {
     const double depth = level - position.y();
-    return {0, strength + (depth > 0 ? growth * depth : 0)};
+    return {0, strength + (depth > 0 ? growth * depth : 0), 0};
   }
 
   double undrained_strength(const History& q) const {
@@ -45,10 +47,13 @@ struct Tresca : Elasticity {
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {
-    const Symmetric<Space> trial = elastic_step(old, velocity_gradient, dt);
+    const double shut = closing(q.opening, velocity_gradient.trace() * dt);
+    const Symmetric<Space> trial =
+        elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);
     const MohrCoulombSurface now{0, undrained_strength(q), 0, tension};
     const ReturnedInPlane r = returned_in_plane(trial.xx, trial.yy, trial.zz, trial.xy, now, *this);
     q.plastic_strain += r.plastic_strain;
+    q.opening += r.opening - shut;
     return {r.xx, r.yy, r.zz, r.xy};
   }
   template <class Space>

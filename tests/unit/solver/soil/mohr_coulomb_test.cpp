@@ -162,6 +162,31 @@ TEST_CASE("what has opened at the apex closes before it bears", "[soil]") {
   check(MohrCoulomb::from_angles(elastic, 0, 30));
 }
 
+TEST_CASE("what has opened across the tension cut-off closes before it bears", "[soil]") {
+  const double rate = 1e-5, cut_off = 2e3, elastic_part = cut_off / elastic.bulk_modulus;
+  const auto check = [&](const auto& law, auto q) {
+    Stress s{};
+    for (int k = 0; k < 50; ++k) s = law.step(s, Gradient{rate, 0, 0, rate}, 1, q);
+    const double opened = 100 * rate - s.mean() / elastic.bulk_modulus;  // zz may be less than the cut-off
+    CHECK(std::max(s.xx, s.yy) == Approx(cut_off).epsilon(1e-12));
+    CHECK(q.opening == Approx(opened).epsilon(1e-6));
+    REQUIRE(q.opening > 5 * elastic_part);
+    const double forgetful = -opened * elastic.bulk_modulus;  // what it would bear at once without memory
+    while (q.opening > 2 * rate) {
+      s = law.step(s, Gradient{-rate, 0, 0, -rate}, 1, q);
+      CHECK(s.mean() > 0.2 * forgetful);  // zz, which does not close, is cut meanwhile
+    }
+    const double closed = s.mean();
+    for (int k = 0; k < 10; ++k) s = law.step(s, Gradient{-rate, 0, 0, -rate}, 1, q);
+    CHECK(q.opening == Approx(0).margin(1e-15));
+    CHECK(s.mean() < closed - 8 * 2 * rate * elastic.bulk_modulus);
+  };
+  check(MohrCoulomb::from_angles(elastic, 20e3, 20, 0, cut_off), MohrCoulomb::History());
+  Tresca clay{elastic};
+  clay.strength = 20e3, clay.tension = cut_off;
+  check(clay, clay.at_start(Vec2(0, 0)));
+}
+
 TEST_CASE("Tresca's soil bears its undrained strength whatever the pressure, and more below", "[soil]") {
   Tresca law{elastic};
   law.strength = 20e3, law.growth = 1.5e3, law.level = 4;
