@@ -5,6 +5,7 @@
 #include <random>
 
 #include "render/report/html.hpp"
+#include "render/report/report_tables.hpp"
 #include "render/report/settings.hpp"
 #include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
@@ -193,6 +194,22 @@ FinishedRun run_of(const std::string& folder, const std::vector<double>& times, 
 }
 
 }  // namespace
+
+TEST_CASE(
+    "the table of energy has shares of what each run released, and is left out where none has a budget") {
+  FinishedRun elastic, flowing;
+  elastic.summary.emplace(), flowing.summary.emplace();
+  const std::vector<LoadedRun> runs = {{elastic, "elastic", {}}, {flowing, "flows", {}}};
+  CHECK(energy_table(runs).size() == 1);
+  flowing.summary->energy = {.released = 8, .kinetic = 1, .plastic = 5, .control = 1.5, .unaccounted = 0.5};
+  const Rows rows = energy_table(runs);
+  CHECK(rows[0] == std::vector<std::string>{"Energy", "elastic", "flows"});
+  CHECK(rows[1] == std::vector<std::string>{"released [J/m]", "–", "8"});
+  CHECK(rows[2] == std::vector<std::string>{"kinetic now", "–", "12.50 %"});
+  CHECK(rows[4] == std::vector<std::string>{"dissipated by the soil", "–", "62.50 %"});
+  CHECK(rows.back() == std::vector<std::string>{"unaccounted for", "–", "6.25 %"});
+  CHECK(markdown({{"a", "b|c"}, {"1", "2"}}) == "| a | b\\|c |\n| --- | --- |\n| 1 | 2 |\n\n");
+}
 
 TEST_CASE("states of two times are not compared") {
   const FinishedRun broken = run_of("broken", {0, 0.0919}, RunStatus::unstable),
