@@ -14,9 +14,9 @@ std::string escaped(const std::string& text);
 /// right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
-/// A picture and, for narrow windows, its panels one below the other, drawn for these; each is a link to itself in full size.
-/// Files lie beside the page. `description` is read out where the picture is not seen, `caption` stands
-/// below.
+/// A picture and, for narrow windows, its panels one below the other, drawn for these; each is a link to
+/// itself in full size. Files lie beside the page. `description` is read out where the picture is not seen,
+/// `caption` stands below.
 std::string figure(const std::string& file, const std::string& description, const std::string& caption,
                    const std::vector<std::string>& panels = {});
 

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "solver/analysis/frame_values.hpp"
+#include "solver/fields/field_table.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
-#include "solver/fields/field_table.hpp"
 
 namespace porosph {
 namespace {

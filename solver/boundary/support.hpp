@@ -14,8 +14,8 @@ class Support {
   /// How the motion of the soil appears behind a wall with this unit normal: the matrix that mirrors it.
   virtual Mat2 mirrored_motion(const Vec2& normal) const = 0;
 
-  /// The soil cannot slide along it, so it may carry shear stress. Drawings show it as hatching, where this is
-  /// false as rollers; finite elements hold their nodes accordingly.
+  /// The soil cannot slide along it, so it may carry shear stress. Drawings show it as hatching, where this
+  /// is false as rollers; finite elements hold their nodes accordingly.
   virtual bool carries_shear() const = 0;
 };
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <stdexcept>
 
+#include "solver/fields/field_table.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/output/strain.hpp"
-#include "solver/fields/field_table.hpp"
 #include "solver/run/reference_errors.hpp"
 
 namespace porosph {

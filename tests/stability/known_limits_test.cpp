@@ -25,7 +25,8 @@ Sweep row(const std::string& name, bool along_x, const std::string& held) {
 
 bool is_warned_of(const Sweep& sweep, std::size_t i, const std::string& key) {
   const auto warnings = known_failures(read_case(sweep.case_file, sweep.settings_of(i)));
-  return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(key) != std::string::npos; });
+  return std::ranges::any_of(warnings,
+                             [&](const std::string& w) { return w.find(key) != std::string::npos; });
 }
 
 std::vector<StabilityClass> outcomes(Sweep sweep, const std::vector<std::size_t>& places) {

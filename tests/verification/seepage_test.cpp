@@ -143,7 +143,10 @@ TEST_CASE("consolidation: a fill under its own weight") {
             .quantity = fmt::format("excess pore pressure at T = {:.3g}, relative L2", factor),
             .reference = "Terzaghi's series, pressure growing with depth",
             .resolution = metres(0.2)},
-           error, factor < 0.15 ? 0.0005 : factor < 0.3 ? 0.0015 : 0.002);
+           error,
+           factor < 0.15  ? 0.0005
+           : factor < 0.3 ? 0.0015
+                          : 0.002);
   double lowest = 0;
   for (std::size_t a = 0; a < s.model().particles.size(); ++a)
     lowest = std::min(lowest, s.model().particles.displacement(a).y());

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "solver/analysis/frame_values.hpp"
-#include "solver/output/fields.hpp"
 #include "solver/fields/field_table.hpp"
+#include "solver/output/fields.hpp"
 #include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
 
