@@ -14,13 +14,14 @@ std::string percent(double part) { return std::isfinite(part) ? fmt::format("{:.
 
 std::string table_of(const FemCheck& check) {
   std::vector<std::vector<std::string>> rows = {
-      {"Soil", "Field", "Relative L2", "Of the field", "At most", "At [m]"}};
+      {"Soil", "Field", "Relative L2", "Of the field", "Worst patch", "Around [m]", "At most", "At [m]"}};
   for (const auto& [name, soil] : check.soils)
     for (const auto& [field, d] : soil.fields) {
       const auto underscore = field.find('_');
       const FieldSelection selection{field.substr(0, underscore), field.substr(underscore + 1)};
       const ShownUnit unit = shown_unit(selection.name, d.max_abs);
       rows.push_back({name, shown_label(selection, {}), percent(d.relative_l2), percent(d.relative),
+                      percent(d.local), fmt::format("({:.4g}, {:.4g})", d.local_x, d.local_y),
                       fmt::format("{:.3g} {}", d.max_abs * unit.factor, unit.name),
                       fmt::format("({:.6g}, {:.6g})", d.x, d.y)});
     }
@@ -42,8 +43,10 @@ std::string fem_check_section(const std::vector<std::string>& labels, const std:
         "{}: {:.0f} unknowns, {:.2g} s. Finite elements of small strain, solved by the run itself, at the "
         "particles; places near corners where stress is singular are left out. A difference of more than "
         "{:.2g} % "
-        "of a component (or of a fifth of its field, where that is larger) is a warning.",
-        labels[i], check->unknowns, check->seconds, 100 * check->limit));
+        "of a component (or of a fifth of its field, where that is larger) is a warning, and so is {:.2g} % "
+        "in a patch "
+        "of four by four spacings (of the patch's own values, or of the weight of soil as high as it).",
+        labels[i], check->unknowns, check->seconds, 100 * check->limit, 100 * check->local_limit));
     text += table_of(*check);
   }
   return text.empty() ? text : html::section("Checked by finite elements", text);

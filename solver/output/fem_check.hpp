@@ -16,6 +16,10 @@ struct FemDifference {
       0;               ///< the same over max(||elements||, a fifth of the whole field's norm): what is judged
   double max_abs = 0;  ///< largest |run - elements|, in the field's unit
   double x = 0, y = 0;  ///< where that is, at t = 0 [m]
+  /// The largest of a patch of four by four spacings, over the patch's own norm; at least, a stress is
+  /// measured by the weight of soil as high as the patch, a displacement by half of the field's norm.
+  double local = 0;
+  double local_x = 0, local_y = 0;  ///< where that patch's particles have their centre, at t = 0 [m]
 };
 
 struct FemSoilCheck {
@@ -30,6 +34,7 @@ struct FemCheck {
   double unknowns = 0;
   double seconds = 0;                         ///< mesh, solution and comparison
   double limit = 0;                           ///< of FemDifference::relative, beyond which there is a warning
+  double local_limit = 0;                     ///< of FemDifference::local
   std::map<std::string, FemSoilCheck> soils;  ///< by name
   /// What finite elements say at the probes: EffectiveStress_XX, ..., Displacement_Y, by the probe's name
   /// [SI].

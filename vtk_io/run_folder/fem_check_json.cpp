@@ -28,6 +28,8 @@ Json to_json(const FemDifference& d) {
   put(json, "relative", d.relative, "not a number");
   put(json, "max_abs", d.max_abs, "not a number");
   json["where"] = Json::array({d.x, d.y});
+  put(json, "local", d.local, "not a number");
+  json["local_where"] = Json::array({d.local_x, d.local_y});
   return json;
 }
 
@@ -44,9 +46,17 @@ FemSoilCheck soil_from(const Json& json) {
                     json.at("left_out").get<std::int64_t>(),
                     number(json, "strain"),
                     {}};
-  for (const auto& [name, d] : json.at("fields").items())
-    soil.fields[name] = {number(d, "relative_l2"), number(d, "relative"), number(d, "max_abs"),
-                         d.at("where").at(0).get<double>(), d.at("where").at(1).get<double>()};
+  for (const auto& [name, d] : json.at("fields").items()) {
+    FemDifference& found = soil.fields[name] = {.relative_l2 = number(d, "relative_l2"),
+                                                .relative = number(d, "relative"),
+                                                .max_abs = number(d, "max_abs"),
+                                                .x = d.at("where").at(0).get<double>(),
+                                                .y = d.at("where").at(1).get<double>()};
+    if (!d.contains("local")) continue;  // older runs
+    found.local = number(d, "local");
+    found.local_x = d.at("local_where").at(0).get<double>();
+    found.local_y = d.at("local_where").at(1).get<double>();
+  }
   return soil;
 }
 
@@ -54,7 +64,10 @@ FemSoilCheck soil_from(const Json& json) {
 
 Json to_json(const FemCheck& check) {
   if (!check.skipped.empty()) return {{"skipped", check.skipped}, {"warnings", check.warnings}};
-  Json json = {{"unknowns", check.unknowns}, {"seconds", check.seconds}, {"limit", check.limit}};
+  Json json = {{"unknowns", check.unknowns},
+               {"seconds", check.seconds},
+               {"limit", check.limit},
+               {"local_limit", check.local_limit}};
   json["soils"] = Json::object();
   for (const auto& [name, soil] : check.soils) json["soils"][name] = to_json(soil);
   for (const auto& [probe, values] : check.probes) json["probes"][probe] = values;
@@ -72,6 +85,7 @@ FemCheck fem_check_from(const Json& json) {
   check.unknowns = number(json, "unknowns");
   check.seconds = number(json, "seconds");
   check.limit = number(json, "limit");
+  if (json.contains("local_limit")) check.local_limit = number(json, "local_limit");
   for (const auto& [name, soil] : json.at("soils").items()) check.soils[name] = soil_from(soil);
   if (json.contains("probes")) check.probes = json.at("probes").get<decltype(check.probes)>();
   return check;

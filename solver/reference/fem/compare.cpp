@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "solver/reference/fem/elasticity.hpp"
@@ -13,9 +14,11 @@
 namespace porosph {
 namespace {
 
-constexpr double tolerable = 0.05;
-constexpr double least_share =
-    0.2;  ///< of the field's norm, below which a component is measured by the field
+constexpr double tolerable = 0.05, tolerable_in_a_patch = 0.1;
+/// Of the field's norm, below which a component is measured by the field; displacements of a patch, which
+/// begin at walls, below half of it.
+constexpr double least_share = 0.2, least_share_of_patch = 0.5;
+constexpr double side_of_patch = 4;  // spacings
 
 constexpr int stresses = 4, quantities = 6;
 constexpr std::array<const char*, quantities> names{"EffectiveStress_XX", "EffectiveStress_YY",
@@ -43,35 +46,90 @@ class LeftOut {
   std::vector<double> radii_;
 };
 
+/// Squares of both over some particles.
+struct Squares {
+  Values difference = Values::Zero(), reference = Values::Zero();
+  Point moment = Point::Zero();
+  double weight = 0;
+  std::int64_t particles = 0;
+
+  void add(const Values& off, const Values& fem, const Point& x, double volume) {
+    difference += volume * off.square();
+    reference += volume * fem.square();
+    moment += volume * x;
+    weight += volume;
+    ++particles;
+  }
+};
+
+/// Those of small squares of ground, in which a place may be wrong that the whole soil hides.
+class Patches {
+ public:
+  explicit Patches(double side) : side_(side) {}
+  void add(const Values& off, const Values& fem, const Point& x, double volume) {
+    const Point cell = (x / side_).array().floor();
+    patches_[{cell.x(), cell.y()}].add(off, fem, x, volume);
+  }
+  /// Marks the worst patch in `found`; a component smaller than `least` is measured by that.
+  void find_worst(int quantity, double least, FemDifference& found) const {
+    for (const auto& [cell, patch] : patches_) {
+      if (patch.particles < enough_particles) continue;
+      const double size = std::max(std::sqrt(patch.reference[quantity] / patch.weight), least);
+      const double off = std::sqrt(patch.difference[quantity] / patch.weight) / size;
+      if (off <= found.local) continue;
+      const Point centre = patch.moment / patch.weight;
+      found.local = off, found.local_x = centre.x(), found.local_y = centre.y();
+      if (std::isnan(off)) return;
+    }
+  }
+
+ private:
+  static constexpr int enough_particles = 4;
+  double side_;  // [m]
+  std::map<std::pair<double, double>, Squares> patches_;
+};
+
 /// Sums over the particles of one soil.
 struct Sums {
-  Values difference = Values::Zero(), reference = Values::Zero(), largest = Values::Zero();
+  /// `weight`: unit weight of the soil [N/m3].
+  Sums(double weight, double spacing)
+      : patches(side_of_patch * spacing), least_stress(weight * side_of_patch * spacing) {
+    where.fill(Point::Zero());
+  }
+
+  Squares all;
+  Patches patches;
+  Values largest = Values::Zero();
   std::array<Point, quantities> where{};
+  double least_stress;  ///< stress of a patch is not measured by less: the weight over its height [Pa]
   double volume = 0, strain = 0;
-  std::int64_t particles = 0, left_out = 0;
+  std::int64_t left_out = 0;
 
   void add(const Values& run, const Values& fem, const Point& x, double weight) {
     const Values d = run - fem;
-    difference += weight * d.square();
-    reference += weight * fem.square();
+    all.add(d, fem, x, weight);
+    patches.add(d, fem, x, weight);
     for (int q = 0; q < quantities; ++q)
       if (!(std::abs(d[q]) <= largest[q])) largest[q] = std::abs(d[q]), where[q] = x;
-    ++particles;
   }
 
   FemSoilCheck finished() const {
-    FemSoilCheck soil{particles, left_out, std::sqrt(strain / volume), {}};
-    if (particles == 0) return soil;
+    FemSoilCheck soil{all.particles, left_out, std::sqrt(strain / volume), {}};
+    if (all.particles == 0) return soil;
     for (int q = 0; q < quantities; ++q) {
-      const double field = std::sqrt(q < stresses ? reference.head<stresses>().sum()
-                                                  : reference.tail<quantities - stresses>().sum());
-      const double off = std::sqrt(difference[q]), size = std::sqrt(reference[q]);
+      const double field = std::sqrt(q < stresses ? all.reference.head<stresses>().sum()
+                                                  : all.reference.tail<quantities - stresses>().sum());
+      const double off = std::sqrt(all.difference[q]), size = std::sqrt(all.reference[q]);
       const bool is_zero = size <= 1e-9 * field;
-      soil.fields[names[q]] = {.relative_l2 = is_zero ? std::numeric_limits<double>::quiet_NaN() : off / size,
-                               .relative = off / std::max(size, least_share * field),
-                               .max_abs = largest[q],
-                               .x = where[q].x(),
-                               .y = where[q].y()};
+      FemDifference& found = soil.fields[names[q]] = {
+          .relative_l2 = is_zero ? std::numeric_limits<double>::quiet_NaN() : off / size,
+          .relative = off / std::max(size, least_share * field),
+          .max_abs = largest[q],
+          .x = where[q].x(),
+          .y = where[q].y()};
+      const double mean = field / std::sqrt(all.weight);
+      patches.find_worst(
+          q, q < stresses ? std::max(least_share * mean, least_stress) : least_share_of_patch * mean, found);
     }
     return soil;
   }
@@ -93,7 +151,9 @@ Values values_of(const FemPoint& p) {
 
 FemCheck compare_with_fem(const Case& scene, const Particles& p, const FemSolution& fem) {
   const LeftOut left_out(scene, scene.particles.spacing);
-  std::vector<Sums> sums(scene.soils.size());
+  std::vector<Sums> sums;
+  for (const SoilCase& soil : scene.soils)
+    sums.emplace_back(soil.unit_weight_saturated, scene.particles.spacing);
   for (std::size_t i = 0; i < p.size(); ++i) {
     Sums& of_soil = sums[p.soil[i]];
     const auto reference = fem.in_soil(p.soil[i], p.start[i]);
@@ -119,7 +179,7 @@ FemCheck compare_with_fem(const Case& scene, const Particles& p, const FemSoluti
     for (int q = 0; q < quantities; ++q) check.probes[probe.name][names[q]] = there[q];
   }
   if (particles == 0) throw std::runtime_error("every particle is near a point where stress is singular");
-  check.limit = tolerable + strain;
+  check.limit = tolerable + strain, check.local_limit = tolerable_in_a_patch + strain;
   return check;
 }
 

@@ -183,15 +183,47 @@ std::vector<std::string> causes(const Case& scene, const Particles& p, const Fem
   return all;
 }
 
+using NamedDifference = std::pair<const std::string, FemDifference>;
+
 /// The component of a kind that is furthest off, nullptr if none is beyond the limit.
-const std::pair<const std::string, FemDifference>* worst(const FemSoilCheck& soil, std::string_view kind,
-                                                         double limit) {
-  const std::pair<const std::string, FemDifference>* found = nullptr;
+const NamedDifference* worst(const FemSoilCheck& soil, std::string_view kind, double FemDifference::*measure,
+                             double limit) {
+  const NamedDifference* found = nullptr;
   for (const auto& field : soil.fields)
-    if (field.first.starts_with(kind) && !(field.second.relative <= limit) &&
-        (!found || !(field.second.relative <= found->second.relative)))
+    if (field.first.starts_with(kind) && !(field.second.*measure <= limit) &&
+        (!found || !(field.second.*measure <= found->second.*measure)))
       found = &field;
   return found;
+}
+
+std::string joined(const std::vector<std::string>& why) {
+  if (why.empty()) return "the cause is not known: compare with a smaller particles.spacing";
+  return fmt::format("{}", fmt::join(why, "; "));
+}
+
+double to_millimetres(double x) { return std::round(1e3 * x) / 1e3; }
+
+/// What is said of one kind of field of a soil, "" where it is within the limits.
+std::string warning(const Case& scene, const Particles& p, const FemCheck& check, int s,
+                    const FemSoilCheck& soil, std::string_view kind) {
+  const std::string& of = scene.soils[s].name;
+  const bool stress = kind == "EffectiveStress";
+  if (const NamedDifference* field = worst(soil, kind, &FemDifference::relative, check.limit)) {
+    const auto& [name, d] = *field;
+    return fmt::format(
+        "{} of soil '{}' is {:.2g} % off finite elements, most at ({:.10g}, {:.10g}): {:.3g} {}; {}",
+        short_name(name), of, 100 * d.relative, d.x, d.y, d.max_abs / (stress ? 1e3 : 1e-3),
+        stress ? "kPa" : "mm", joined(causes(scene, p, soil, s, {d.x, d.y})));
+  }
+  if (const NamedDifference* field = worst(soil, kind, &FemDifference::local, check.local_limit)) {
+    const auto& [name, d] = *field;
+    return fmt::format(
+        "{} of soil '{}' is {:.2g} % off finite elements around ({:.10g}, {:.10g}), and {:.2g} % in the "
+        "whole soil; {}",
+        short_name(name), of, 100 * d.local, to_millimetres(d.local_x), to_millimetres(d.local_y),
+        100 * d.relative, joined(causes(scene, p, soil, s, {d.local_x, d.local_y})));
+  }
+  return "";
 }
 
 }  // namespace
@@ -201,19 +233,9 @@ std::vector<std::string> fem_warnings(const Case& scene, const Particles& p, con
   for (int s = 0; s < static_cast<int>(scene.soils.size()); ++s) {
     const auto soil = check.soils.find(scene.soils[s].name);
     if (soil == check.soils.end()) continue;
-    for (const std::string_view kind : {"EffectiveStress", "Displacement"}) {
-      const auto* field = worst(soil->second, kind, check.limit);
-      if (!field) continue;
-      const auto& [name, d] = *field;
-      const bool stress = kind == "EffectiveStress";
-      const std::vector<std::string> why = causes(scene, p, soil->second, s, {d.x, d.y});
-      warnings.push_back(fmt::format(
-          "{} of soil '{}' is {:.2g} % off finite elements, most at ({:.10g}, {:.10g}): {:.3g} {}; {}",
-          short_name(name), soil->first, 100 * d.relative, d.x, d.y, d.max_abs / (stress ? 1e3 : 1e-3),
-          stress ? "kPa" : "mm",
-          why.empty() ? "the cause is not known: compare with a smaller particles.spacing"
-                      : fmt::format("{}", fmt::join(why, "; "))));
-    }
+    for (const std::string_view kind : {"EffectiveStress", "Displacement"})
+      if (std::string text = warning(scene, p, check, s, soil->second, kind); !text.empty())
+        warnings.push_back(std::move(text));
   }
   return warnings;
 }

@@ -109,14 +109,16 @@ TEST_CASE("the comparison with finite elements comes back as it was") {
   const TemporaryFolder folder;
   auto summary = example();
   FemCheck& check = summary.finite_elements.emplace();
-  check.unknowns = 26176, check.seconds = 0.25, check.limit = 0.0625;
+  check.unknowns = 26176, check.seconds = 0.25, check.limit = 0.0625, check.local_limit = 0.125;
   FemSoilCheck& sand = check.soils["sand"] = {1234, 56, 0.0125, {}};
-  sand.fields["EffectiveStress_XY"] = {std::nan(""), 0.25, 1500, 3.5, -0.5};
+  sand.fields["EffectiveStress_XY"] = {std::nan(""), 0.25, 1500, 3.5, -0.5, 0.75, 1.5, 2.5};
   check.warnings = {"sigma'_xy of soil 'sand' is 25 % off"};
   const auto found = written(folder, summary)["finite_elements"];
   CHECK(found["soils"]["sand"]["fields"]["EffectiveStress_XY"]["relative_l2"].is_null());
   CHECK(found["soils"]["sand"]["fields"]["EffectiveStress_XY"]["where"] == json::parse("[3.5, -0.5]"));
+  CHECK(found["soils"]["sand"]["fields"]["EffectiveStress_XY"]["local_where"] == json::parse("[1.5, 2.5]"));
   CHECK(found["limit"] == 0.0625);
+  CHECK(found["local_limit"] == 0.125);
   const auto text = content(folder / "summary.json");
   write_summary(folder / "summary.json", read_summary(folder / "summary.json"));
   CHECK(content(folder / "summary.json") == text);

@@ -80,6 +80,37 @@ TEST_CASE("Differences are measured by soil and field, and placed") {
   CHECK_THAT(warnings[1], Contains("u_x of soil 'sand' is 15 % off"));
 }
 
+TEST_CASE("A patch that is wrong is named, though the whole soil is right") {
+  const Case scene = scene_of_particles();
+  const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 2.5));
+  Particles p = exact_particles(scene, fem);
+  const auto in_patch = [&](std::size_t i) {  // 2 m by 2 m, the squares that patches are
+    return p.start[i].x() > 4 && p.start[i].x() < 6 && p.start[i].y() > 2 && p.start[i].y() < 4;
+  };
+  const Particles exact = p;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (in_patch(i)) p.stress[i].yy *= 1.2;
+  const FemCheck check = compare_with_fem(scene, p, fem);
+  const FemDifference& yy = check.soils.at("sand").fields.at("EffectiveStress_YY");
+  CHECK(yy.local == Approx(0.2).epsilon(1e-6));
+  CHECK(yy.local_x == Approx(5));
+  CHECK(yy.local_y == Approx(3));
+  CHECK(yy.relative < check.limit);
+  CHECK(check.local_limit == Approx(check.limit + 0.05));
+  const auto warnings = fem_warnings(scene, p, check);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Contains("sigma'_yy of soil 'sand' is 20 % off finite elements around (5, 3), and ") &&
+                 Contains(" % in the whole soil; "));
+
+  p = exact;  // beside the surface stress is measured by the weight over a patch's height, 40 kPa
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.start[i].y() > 8 && p.start[i].x() > 4 && p.start[i].x() < 6) p.stress[i].yy += 3e3;
+  const FemCheck shallow = compare_with_fem(scene, p, fem);
+  CHECK(shallow.soils.at("sand").fields.at("EffectiveStress_YY").local == Approx(3.0 / 40).epsilon(1e-6));
+  CHECK(fem_warnings(scene, p, shallow).empty());
+}
+
 TEST_CASE("A number that is not finite is beyond every limit") {
   const Case scene = scene_of_particles();
   const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 2.5));
