@@ -76,7 +76,8 @@ fs::path taken(const fs::path& folder, const std::string& case_text, const std::
 
 #ifdef POROSPH_HAS_VTK
 SeriesOptions series_options(const Case& scene) {
-  return {scene.output.format, scene.output.compression, script_scene(scene)};
+  const OutputCase& chosen = scene.output;
+  return {chosen.format, chosen.compression, chosen.precision, script_scene(scene), write_case(scene)};
 }
 #endif
 

@@ -75,9 +75,10 @@ void add_text(vtkPolyData& data, const char* name, const std::string& text) {
 }  // namespace
 
 void write_frame(const fs::path& file, const Frame& frame, const SeriesOptions& options) {
-  const auto data = view_of(frame);
+  const auto data = view_of(frame, options.precision);
   add_text(*data, "Program", "Porosph " POROSPH_VERSION);
   if (!options.scene.title.empty()) add_text(*data, "Title", options.scene.title);
+  if (!options.case_text.empty()) add_text(*data, "Case", options.case_text);
   const auto writer = writer_of(*data, options.format);
   vtkNew<VtkErrors> errors;
   errors->watch(*writer);

@@ -4,6 +4,7 @@
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkIntArray.h>
@@ -39,8 +40,20 @@ vtkSmartPointer<vtkDataArray> borrow(const std::vector<std::int32_t>& values, in
   return borrow<vtkTypeInt32Array>(values, width);
 }
 
-vtkSmartPointer<vtkDataArray> array_of(const FrameField& field) {
-  auto array = std::visit([&](const auto& values) { return borrow(values, field.width()); }, field.values);
+vtkSmartPointer<vtkDataArray> singles(const std::vector<double>& values, int width) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetNumberOfComponents(width);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::ranges::transform(values, array->GetPointer(0), [](double v) { return static_cast<float>(v); });
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> array_of(const FrameField& field, FramePrecision precision) {
+  const auto* numbers = std::get_if<std::vector<double>>(&field.values);
+  const bool single = numbers != nullptr && precision == FramePrecision::single;
+  auto array =
+      single ? singles(*numbers, field.width())
+             : std::visit([&](const auto& values) { return borrow(values, field.width()); }, field.values);
   array->SetName(field.name.c_str());
   if (const std::string unit = field_unit(field.name); !unit.empty())
     array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
@@ -118,14 +131,14 @@ vtkSmartPointer<vtkCellArray> vertices(vtkIdType particles) {
   return cells;
 }
 
-vtkSmartPointer<vtkPolyData> view_of(const Frame& frame) {
+vtkSmartPointer<vtkPolyData> view_of(const Frame& frame, FramePrecision precision) {
   check(frame);
   auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
   points->SetData(borrow<vtkDoubleArray>(frame.points, 3));
   data->SetPoints(points);
   data->SetVerts(vertices(points->GetNumberOfPoints()));
-  for (const auto& field : frame.fields) data->GetPointData()->AddArray(array_of(field));
+  for (const auto& field : frame.fields) data->GetPointData()->AddArray(array_of(field, precision));
   add_field_data<vtkDoubleArray>(*data, time_array, frame.time);
   add_field_data<vtkTypeInt64Array>(*data, step_array, frame.step);
   return data;

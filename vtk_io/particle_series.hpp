@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/case/case.hpp"
@@ -15,7 +16,9 @@ namespace porosph {
 struct SeriesOptions {
   FrameFormat format = FrameFormat::poly_data;
   Compression compression = Compression::zlib;
-  ScriptScene scene = {};  ///< for the scripts beside the series
+  FramePrecision precision = FramePrecision::full;
+  ScriptScene scene = {};      ///< for the scripts beside the series
+  std::string case_text = {};  ///< kept in each frame, so that it says what it is of
 };
 
 /// Writes the frames of one run. After each the .pvd names all of them, so that a running or killed job

@@ -195,6 +195,7 @@ enum class FrameFormat {
   unstructured_grid,  ///< .vtu
 };
 enum class Compression { none, lz4, zlib };
+enum class FramePrecision { full, single };
 
 struct OutputCase {
   double interval = 0;          ///< between frames; 0: first and last only [s]
@@ -204,6 +205,7 @@ struct OutputCase {
   bool boundary = false;  ///< the images behind the walls as a second block
   FrameFormat format = FrameFormat::poly_data;
   Compression compression = Compression::zlib;
+  FramePrecision precision = FramePrecision::full;
 };
 
 struct ProbeCase {

@@ -16,6 +16,7 @@ constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
 constexpr std::array<Names, 3> boundary_kinds{"roller", "fixed", "friction"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
+constexpr std::array<Names, 2> frame_precisions{"double", "single"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 
 /// By the maps of docs/stability.md; the paper's lattices have 1.2.
@@ -242,6 +243,11 @@ void declare(Fields& f, OutputCase& c) {
   f.choice(Key("compression", "",
                "Compression of the frames; `zlib` is the smallest, `lz4` and `none` are faster."),
            c.compression, compressions);
+  f.choice(
+      Key("precision", "",
+          "Precision of the frames' fields; `single` has 7 digits and about half the bytes. Positions are "
+          "always `double`, and the run itself does not depend on it."),
+      c.precision, frame_precisions);
 }
 
 void declare(Fields& f, ProbeCase& c) {

@@ -52,6 +52,11 @@ std::vector<Way> ways() {
           {"`vtp`, `lz4`, the usual ten fields", usual, {vtp, Compression::lz4}, {}, {}},
           {"`vtp`, `zlib`, the usual ten fields", usual, {vtp, Compression::zlib}, {}, {}},
           {"`vtu`, `zlib`, the usual ten fields", usual, {vtu, Compression::zlib}, {}, {}},
+          {"`vtp`, `zlib`, the usual ten fields, `single`",
+           usual,
+           {vtp, Compression::zlib, FramePrecision::single},
+           {},
+           {}},
           {"`vtp`, `zlib`, two fields", few, {vtp, Compression::zlib}, {}, {}},
           {"`vtp`, `zlib`, all but `ExcessStress`", all, {vtp, Compression::zlib}, {}, {}}};
 }

@@ -1,9 +1,11 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -95,6 +97,51 @@ TEST_CASE("VTK's reader finds in a .vtu what the frame holds, bit for bit") {
   const auto frame = example_frame(0.1);
   SeriesWriter(folder.path(), {FrameFormat::unstructured_grid, compression}).write(frame);
   check_frame(*seen_by_vtk<vtkXMLUnstructuredGridReader>(folder / "frames/particles_000000.vtu"), frame);
+}
+
+TEST_CASE("single precision halves the fields and rounds them, and leaves points and numbers as they are") {
+  const TemporaryFolder folder;
+  const auto format = GENERATE(FrameFormat::poly_data, FrameFormat::unstructured_grid);
+  const auto frame = example_frame(0.1, 1000);
+  const auto written = [&](const char* name, FramePrecision precision) {
+    SeriesWriter(folder / name, {format, Compression::none, precision}).write(frame);
+    const auto frames = folder / name / "frames";
+    return frames / names_in(frames).at(0);
+  };
+  const auto full = written("full", FramePrecision::full), single = written("single", FramePrecision::single);
+  const auto data = read_frame(single);
+  check_values<vtkDoubleArray>(data->GetPoints()->GetData(), frame.points);
+  std::size_t saved = 0;
+  for (const FrameField& field : frame.fields) {
+    CAPTURE(field.name);
+    auto* array = data->GetPointData()->GetArray(field.name.c_str());
+    REQUIRE(array != nullptr);
+    const auto* values = std::get_if<std::vector<double>>(&field.values);
+    if (values == nullptr) {
+      check_field(array, field);
+      continue;
+    }
+    const std::vector<float> rounded(values->begin(), values->end());
+    check_values<vtkFloatArray>(array, rounded);
+    saved += 4 * values->size();
+    CHECK(array->GetNumberOfComponents() == field.width());
+  }
+  REQUIRE(saved > 0);
+  CHECK(file_size(full) - file_size(single) == Approx(static_cast<double>(saved)).margin(64));
+}
+
+TEST_CASE("a frame says of which case it is") {
+  const TemporaryFolder folder;
+  const std::string text = "title = \"Dam — ä\"\n[particles]\nspacing = 0.5\n";
+  SeriesOptions options;
+  options.case_text = text;
+  SeriesWriter(folder.path(), options).write(example_frame());
+  const auto file = folder / "frames/particles_000000.vtp";
+  const auto data = seen_by_vtk<vtkXMLPolyDataReader>(file);
+  auto* kept = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("Case"));
+  REQUIRE(kept != nullptr);
+  CHECK(kept->GetValue(0) == text);
+  CHECK(read_frame(file)->GetNumberOfPoints() == data->GetNumberOfPoints());
 }
 
 TEST_CASE("files are raw, compressed and have 64-bit headers") {

@@ -58,7 +58,8 @@ Case unusual_case() {
               {"Velocity", "Strain"},
               true,
               FrameFormat::unstructured_grid,
-              Compression::lz4};
+              Compression::lz4,
+              FramePrecision::single};
   c.probes = {{"A", {3, 0.5}}, {"b-2_x", {7, 1}}};
   return c;
 }
@@ -88,6 +89,7 @@ TEST_CASE("a written case reads as the same case") {
   CHECK(back.output.boundary);
   CHECK(back.output.format == FrameFormat::unstructured_grid);
   CHECK(back.output.compression == Compression::lz4);
+  CHECK(back.output.precision == FramePrecision::single);
   CHECK(back.probes[1].position == Point(7, 1));
 }
 
