@@ -75,9 +75,17 @@ fs::path taken(const fs::path& folder, const std::string& case_text, const std::
 }
 
 #ifdef POROSPH_HAS_VTK
+/// The case without its end and step: a run that is given a later end keeps the frames that it has.
+std::string case_in_frames(Case scene) {
+  scene.time.step = TimeCase{}.step;
+  std::string text = write_case(scene);
+  const auto at = text.find("\nend = ", text.find("[time]"));
+  return text.replace(at + 1, text.find('\n', at + 1) - at - 1, "# end: see the run's case.toml");
+}
+
 SeriesOptions series_options(const Case& scene) {
   const OutputCase& chosen = scene.output;
-  return {chosen.format, chosen.compression, chosen.precision, script_scene(scene), write_case(scene)};
+  return {chosen.format, chosen.compression, chosen.precision, script_scene(scene), case_in_frames(scene)};
 }
 #endif
 

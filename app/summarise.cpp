@@ -12,6 +12,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
+#include "solver/sph/consistent/consistent.hpp"
 
 namespace porosph::app {
 namespace {
@@ -28,7 +29,9 @@ std::map<std::string, std::string> skipped_work(const Simulation& s) {
     skipped["artificial_viscosity"] = "alpha and beta are zero";
   if (f.artificial_stress == 0) skipped["artificial_stress"] = "its strength is zero";
   if (f.zero_energy_control == 0) skipped["zero_energy_control"] = "its strength is zero";
-  if (f.bulk_viscosity == 0) skipped["bulk_viscosity"] = "its strength is zero";
+  if (f.motion == Motion::consistent && bulk_viscosity_of(f, s.model()) == 0)
+    skipped["bulk_viscosity"] = f.bulk_viscosity == 0 ? "its strength is zero" : "soil yields";
+  if (f.motion != Motion::consistent) skipped["bulk_viscosity"] = "its strength is zero";
   if (c.loading.damping == 0 && !c.loading.adaptive_damping) skipped["damping"] = "xi is zero";
   skipped["kernel_gradients"] = fmt::format("made {} times in {} steps", counts.refreshes, s.step());
   if (f.motion == Motion::consistent)

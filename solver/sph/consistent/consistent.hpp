@@ -11,6 +11,11 @@
 
 namespace porosph {
 
+/// b of the viscosity in compression that is used. By default none where soil yields: flowing particles come
+/// together and part all the time, and what resists only the one is a pressure on average, the larger the
+/// stiffer the soil. It made runout grow by 12 % for ten times the Young's modulus.
+double bulk_viscosity_of(const FormulationCase& formulation, const Model& model);
+
 /// Each stress acts with its own correction matrix (Bonet and Lok 1999), so that the forces are the adjoint
 /// of the strain-rate operator and conserve momentum and energy:
 ///

@@ -22,7 +22,7 @@ TEST_CASE("a commented case is the case that it explains") {
 TEST_CASE("defaults that are taken out of their comments change nothing") {
   std::string text = commented_case(small_case);
   for (const std::string key :
-       {"smoothing_ratio", "unit_weight_unsaturated", "bulk_viscosity", "courant", "fields"}) {
+       {"smoothing_ratio", "unit_weight_unsaturated", "zero_energy_control", "courant", "fields"}) {
     const auto at = text.find("\n#" + key + " = ");
     CAPTURE(key);
     REQUIRE(at != std::string::npos);

@@ -174,7 +174,7 @@ TEST_CASE("each momentum form brings its own artificial terms") {
   CHECK(usual.motion == Motion::consistent);
   CHECK(usual.artificial_viscosity_alpha == 0);
   CHECK(usual.artificial_stress == 0);
-  CHECK(usual.bulk_viscosity == 0.06);
+  CHECK(usual.bulk_viscosity == -1);
   CHECK(usual.zero_energy_control == 0.2);
   CHECK(usual.refresh_strain == 0.02);
   for (const Motion motion : {Motion::conventional, Motion::proposed, Motion::rho_squared}) {
