@@ -19,10 +19,11 @@ std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, doubl
                                .elastic = now.elastic - at_start,
                                .plastic = work.plastic,
                                .control = work.control,
+                               .contact = flow->loose().walls().work(),
                                .diffusion = work.diffusion,
                                .bulk_viscosity = work.viscous};
   budget.unaccounted = budget.released - budget.kinetic - budget.elastic - budget.plastic - budget.control -
-                       budget.diffusion - budget.bulk_viscosity;
+                       budget.contact - budget.diffusion - budget.bulk_viscosity;
   return budget;
 }
 

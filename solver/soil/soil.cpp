@@ -105,6 +105,17 @@ double Soil::mobilised_strength(const Particles& p, std::size_t a) const {
                      [&](const auto& law, const auto& q) { return mobilised(law, p.stress[a], q); });
 }
 
+double Soil::cohesion(const Particles& p, std::size_t a) const {
+  return of_yielding(law_, p, history_, a, [](const auto& law, const auto& q) {
+    return std::max(0.0, law.shear_strength(Stress{}, q));
+  });
+}
+
+double Soil::sin_friction(const Particles& p, std::size_t a) const {
+  return of_yielding(law_, p, history_, a,
+                     [](const auto& law, const auto& q) { return law.sin_friction(q); });
+}
+
 double Soil::plastic_dilation(const Particles& p, std::size_t a) const {
   return of_yielding(law_, p, history_, a, [&](const auto& law, const auto& q) {
     if constexpr (requires { q.dilation; })

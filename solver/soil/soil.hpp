@@ -32,6 +32,10 @@ class Soil {
   /// Shear stress of a particle over the most that the law bears at its mean stress, at most 1; 0 in soil
   /// that bears any.
   double mobilised_strength(const Particles& particles, std::size_t a) const;
+  /// What the particle's law bears of shear without mean stress [Pa], and the sine of its friction angle; 0
+  /// in soil that does not yield.
+  double cohesion(const Particles& particles, std::size_t a) const;
+  double sin_friction(const Particles& particles, std::size_t a) const;
   /// Modulus M of one-dimensional compression of a particle now [Pa].
   double stiffness(const Particles& particles, std::size_t a) const;
   /// The law's stiffness follows its state: its energy is not that of the largest moduli.

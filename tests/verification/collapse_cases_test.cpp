@@ -66,6 +66,24 @@ TEST_CASE("slides and cuts that ship run to their end above their base", "[failu
   CHECK(lowest > 0);
 }
 
+TEST_CASE("soil slides under water in the paper's forms as well, along walls beyond where it lay",
+          "[failure]") {
+  const Motion motion = GENERATE(Motion::proposed, Motion::rho_squared);
+  const double courant = GENERATE(0.3, 0.6);
+  CAPTURE(motion_name(motion), courant);
+  Case sliding = scene("failure/submerged_slide");
+  sliding.formulation = default_formulation(motion);
+  sliding.time.courant = courant;
+  Simulation simulation(sliding);
+  run_to_end(simulation);
+  double lowest = never, farthest = 0;
+  for (const Vec2& at : simulation.model().particles.position)
+    lowest = std::min(lowest, at.y()), farthest = std::max(farthest, at.x());
+  CHECK(lowest > -0.05);  // walls stop the velocity, not what they have let through
+  CHECK(farthest > 33);   // it began at 30 m
+  CHECK(farthest < 45);
+}
+
 // The friction angle of these cases was chosen by what such columns do: see the cases.
 TEST_CASE("columns of sand go about as far as in experiments", "[collapse]") {
   constexpr double width = 0.1;

@@ -58,36 +58,52 @@ Deposit deposit(const Case& scene) {
 }  // namespace
 
 TEST_CASE("a column collapses, comes to rest, and the control takes little of its energy", "[collapse]") {
-  const Deposit d = deposit(column(0.1 / 15, 0.84e6));
+  const Deposit d = deposit(column(0.004, 0.84e6));
   CAPTURE(d.quantile95, d.mean, d.kinetic, d.drop, d.control, d.unaccounted, d.lowest);
-  CHECK(d.lowest > 0);
+  CHECK(d.lowest > 0.0008);  // walls stop particles at a quarter of the spacing; evening them out moves some
   CHECK(d.kinetic < 1e-5 * d.drop);
-  CHECK(std::abs(d.unaccounted) < 0.025 * d.drop);  // with 25 rows 1.2 %: the base's stress is extrapolated
+  CHECK(std::abs(d.unaccounted) < 0.02 * d.drop);
   CHECK(d.control > 0);
-  CHECK(d.control < 0.2 * d.drop);
-  CHECK(d.quantile95 > 0.32);
-  CHECK(d.quantile95 < 0.38);
+  CHECK(d.control < 0.1 * d.drop);
+  CHECK(d.quantile95 == Approx(0.367).epsilon(0.02));
 }
 
+namespace {
+
+constexpr double fine = 0.002, usual_spacing = 0.004, stiffness = 0.84e6;
+
+/// After 0.65 s, when the flow is nearly over.
+Deposit after(double spacing, const std::function<void(Case&)>& change) {
+  Case scene = column(spacing, stiffness);
+  scene.time.end = 0.65;
+  change(scene);
+  return deposit(scene);
+}
+
+void check_same(const Deposit& d, const Deposit& usual, double allowed) {
+  CAPTURE(d.quantile95 / usual.quantile95, d.mean / usual.mean, d.unaccounted / d.drop);
+  CHECK(d.quantile95 == Approx(usual.quantile95).epsilon(allowed));
+  CHECK(d.mean == Approx(usual.mean).epsilon(allowed));
+  CHECK(std::abs(d.unaccounted) < 0.02 * d.drop);
+}
+
+}  // namespace
+
 TEST_CASE("how far a column goes does not hang on stiffness, time step or control", "[collapse]") {
-  const auto after = [](const std::function<void(Case&)>& change) {
-    Case scene = column(0.1 / 15, 0.84e6);
-    scene.time.end = 0.65;
-    change(scene);
-    return deposit(scene);
-  };
-  const Deposit usual = after([](Case&) {});
+  const Deposit usual = after(usual_spacing, [](Case&) {});
   const auto same = [&](const std::string& what, const std::function<void(Case&)>& change) {
-    const Deposit d = after(change);
-    CAPTURE(what, d.quantile95 / usual.quantile95, d.mean / usual.mean, d.unaccounted / d.drop);
-    CHECK(d.quantile95 == Approx(usual.quantile95).epsilon(0.02));
-    CHECK(d.mean == Approx(usual.mean).epsilon(0.02));
-    CHECK(std::abs(d.unaccounted) < 0.025 * d.drop);
+    CAPTURE(what);
+    check_same(after(usual_spacing, change), usual, 0.01);
   };
   same("stiffness x 3", [](Case& c) { c.soils[0].youngs_modulus *= 3; });
   same("stiffness x 10", [](Case& c) { c.soils[0].youngs_modulus *= 10; });
   same("Courant number 0.4", [](Case& c) { c.time.courant = 0.4; });
-  same("Courant number 0.2", [](Case& c) { c.time.courant = 0.2; });
   same("control 0.02", [](Case& c) { c.formulation.zero_energy_control = 0.02; });
   same("control 0.2", [](Case& c) { c.formulation.zero_energy_control = 0.2; });
+}
+
+TEST_CASE("how far a column goes does not hang on the spacing", "[collapse][.nightly]") {
+  const Deposit usual = after(usual_spacing, [](Case&) {}), finer = after(fine, [](Case&) {});
+  check_same(finer, usual, 0.01);
+  CHECK(finer.control < 0.05 * finer.drop);
 }

@@ -124,7 +124,7 @@ Json to_json(const Summary& summary) {
     Json& energy = json["energy_budget"];
     put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
     put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
-    put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
+    put(energy, "contact", e.contact), put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
     put(energy, "unaccounted", e.unaccounted);
   }
   if (summary.seepage) {
@@ -340,9 +340,15 @@ Summary summary_from(const Object& json) {
   }
   if (json.has("energy_budget")) {
     const auto e = json.object("energy_budget");
-    summary.energy = {e.number("released"),       e.number("kinetic"),    e.number("elastic"),
-                      e.number("plastic"),        e.number("control"),    e.number("stress_diffusion"),
-                      e.number("bulk_viscosity"), e.number("unaccounted")};
+    summary.energy = {.released = e.number("released"),
+                      .kinetic = e.number("kinetic"),
+                      .elastic = e.number("elastic"),
+                      .plastic = e.number("plastic"),
+                      .control = e.number("control"),
+                      .contact = e.has("contact") ? e.number("contact") : 0,  // older runs have none
+                      .diffusion = e.number("stress_diffusion"),
+                      .bulk_viscosity = e.number("bulk_viscosity"),
+                      .unaccounted = e.number("unaccounted")};
   }
   if (json.has("zigzag")) {
     const auto zigzag = json.object("zigzag");

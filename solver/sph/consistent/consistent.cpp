@@ -65,7 +65,7 @@ void ConsistentDynamics::rebuild_reference() {
   yields_.assign(asked ? model_.particles.size() : 0, 0);
   if (flow_.active()) flow_.take(reference_, model_);
   if (friction_.active()) friction_.take(reference_, model_);
-  fluxes_ = Fluxes(reference_, model_, spring_.active());
+  fluxes_ = Fluxes(reference_, model_, spring_.active(), flow_.active() ? &flow_.loose() : nullptr);
   connect_arrays();
 }
 
@@ -84,6 +84,7 @@ void ConsistentDynamics::connect_arrays() {
   if (flow_.active())
     arrays_.flow = {.viscosity = flow_.viscosity().data(),
                     .shear_rate = flow_.shear_rate(),
+                    .bears = flow_.loose().bears(),
                     .mass = p.mass.data(),
                     .length_squared = model_.smoothing_length * model_.smoothing_length,
                     .weight = model_.gravity.norm() * model_.spacing};
@@ -126,6 +127,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);
     flow_.sample_control(reference_, model_.particles);
+    flow_.loose().walls().apply(model_, out);
   }
   spring_.soften_pairs(
       reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
@@ -155,6 +157,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
+    flow_.loose().walls().remember_step(dt);
     flow_.count_control(model_.particles, dt);
     flow_.diffuse_stress(reference_, model_, dt);
   }

@@ -14,7 +14,6 @@ using Vec4 = Eigen::Vector4d;
 using Gradient4 = Eigen::Matrix<double, 4, 2>;
 
 constexpr int steps_between_samples = 16;  // of the control's work
-constexpr int fewest_neighbours = 7;       // of the soil: with fewer a particle needs the wall to be held
 
 Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
@@ -98,22 +97,23 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   at_walls_.clear();
   blind_.assign(n, 0);
   correction_.resize(n);
-  std::vector<std::uint8_t> is_at_wall(n);
+  std::vector<std::uint8_t> is_at_wall(n), has_ghosts(n);
+  std::vector<std::int32_t> neighbours(n);  // of the soil
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     Mat2 sum = Mat2::Zero();
-    int soil = 0;
-    bool ghosts = false;
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
       if (b >= n) {
-        ghosts = true, is_at_wall[a] |= is_fixed_image(r, b);
+        has_ghosts[a] = 1, is_at_wall[a] |= is_fixed_image(r, b);
       } else {
-        ++soil, sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
+        ++neighbours[a], sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
       }
     });
-    correction_[a] = ghosts ? correction_matrix(sum) : r.correction[a];
-    blind_[a] = is_at_wall[a] && soil >= fewest_neighbours;
+    correction_[a] = has_ghosts[a] ? correction_matrix(sum) : r.correction[a];
   }
+  loose_.take(model, neighbours, has_ghosts, has_flowed_);
+  for (std::int32_t a = 0; a < n; ++a)
+    blind_[a] = is_at_wall[a] && (neighbours[a] >= LooseParticles::fewest_neighbours || loose_.is(a));
   for (std::int32_t a = 0; a < n; ++a)
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
 }
@@ -126,20 +126,25 @@ void FlowingSoil::diffuse_stress(const ReferenceConfiguration& r, Model& model, 
   std::vector<std::uint8_t> shears(n), near(n);
   bool any = false;
   for (std::int32_t a = 0; a < n; ++a)
-    any |= shears[a] = per_rate * dt * shear_rate_[a] > negligible && model.soils[p.soil[a]].flows();
+    any |= shears[a] =
+        per_rate * dt * shear_rate_[a] > negligible && model.soils[p.soil[a]].flows() && !loose_.is(a);
   if (!any) return;
+  const auto share_stress = [&](std::int32_t a, std::int32_t b) {
+    return b < n && p.soil[b] == p.soil[a] && !loose_.is(b);
+  };
   std::vector<Gradient4> gradient(n);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     near[a] = shears[a];
+    if (loose_.is(a)) continue;
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
-      if (b < n && p.soil[b] == p.soil[a]) near[a] |= shears[b];
+      if (share_stress(a, b)) near[a] |= shears[b];
     });
     if (!near[a]) continue;
     const Vec4 own = vector(p.stress[a]);
     Gradient4 sum = Gradient4::Zero();
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (b >= n || p.soil[b] != p.soil[a]) return;
+      if (!share_stress(a, b)) return;
       sum += (vector(p.stress[b]) - own) * Eigen::RowVector2d(g.x, g.y);
     });
     gradient[a] = sum * correction_[a].transpose();
@@ -150,7 +155,7 @@ void FlowingSoil::diffuse_stress(const ReferenceConfiguration& r, Model& model, 
     if (!near[a]) continue;
     const Vec4 own = vector(p.stress[a]);
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (b >= n || p.soil[b] != p.soil[a] || !(shears[a] || shears[b])) return;
+      if (!share_stress(a, b) || !(shears[a] || shears[b])) return;
       const double d = std::min(0.5 * per_rate * dt * (shear_rate_[a] + shear_rate_[b]), most) * h2;
       const Vec2 way = r.points[b] - r.points[a];
       change[a] += 2 * d * g.w * (vector(p.stress[b]) - own - 0.5 * (gradient[a] + gradient[b]) * way);
@@ -268,6 +273,7 @@ void FlowingSoil::visit(StateArchive& state) {
   state.array("shear_rate", shear_rate_);
   state.value("has_flowed", has_flowed_);
   state.value("control_samples", sample_.steps);
+  loose_.walls().visit(state);
   for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
     state.value("work", *work);
 }

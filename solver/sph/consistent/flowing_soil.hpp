@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
+#include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
 
 namespace porosph {
@@ -36,13 +37,14 @@ class FlowingSoil {
   /// particle, after a step ...
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
                        PlaneTensors& flux, std::span<Record> records) const;
-  /// ... and takes the walls' pairs out of the accelerations [m/s2]. A particle with hardly a neighbour is
-  /// held by the wall alone: it keeps them.
+  /// ... and takes the walls' pairs out of the accelerations [m/s2].
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
                        std::span<Vec2> accelerations) const;
 
   std::vector<double>& viscosity() { return viscosity_; }  ///< mu of the control [Pa s]; and ghost
   double* shear_rate() { return shear_rate_.data(); }      ///< as in FlowView
+  LooseParticles& loose() { return loose_; }
+  const LooseParticles& loose() const { return loose_; }
 
   /// Energy since the start [J/m].
   struct Work {
@@ -76,6 +78,7 @@ class FlowingSoil {
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those
+  LooseParticles loose_;
   struct ControlSample {
     std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
     std::int64_t steps = 0;                    ///< counted so far

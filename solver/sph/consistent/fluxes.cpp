@@ -4,8 +4,9 @@
 
 namespace porosph {
 
-Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control)
-    : behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows)) {
+Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control,
+               const LooseParticles* loose)
+    : behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows), loose) {
   const Particles& p = model.particles;
   const std::size_t all = r.points.size();
   deformation_.assign(p.size(), Mat2::Identity());

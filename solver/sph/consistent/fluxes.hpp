@@ -19,8 +19,10 @@ namespace porosph {
 class Fluxes {
  public:
   Fluxes() = default;
-  /// Undeformed. `elastic_control`: the zero-energy control acts on displacements as well.
-  Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control);
+  /// Undeformed. `elastic_control`: the zero-energy control acts on displacements as well. `loose`: where
+  /// soil flows, particles that bear no stress.
+  Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control,
+         const LooseParticles* loose);
 
   /// The particles' velocities, and the ghosts'.
   void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);

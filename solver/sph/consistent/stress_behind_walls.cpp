@@ -4,24 +4,28 @@
 
 namespace porosph {
 
-StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, bool flows) {
+StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, bool flows,
+                                     const LooseParticles* loose) {
   // At rest no force is as stiff as what is extrapolated. The stress of a single row that slides over a wall
   // doubles in every step with a gradient across the row that its unevenness alone decides.
   const double spans_the_plane = flows ? 0.15 : 0.01;
   const Ghosts& ghosts = r.ghosts;
-  std::vector<std::uint8_t> from_extrapolated(ghosts.size());
+  const std::size_t n = ghosts.particles();
+  std::vector<std::uint8_t> from_extrapolated(ghosts.size()), left_out(n + ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     const bool extrapolates = ghosts.wall(i).bears_weight;
     (extrapolates ? extrapolated_ : mirrored_).push_back(i);
-    from_extrapolated[i] = extrapolates || (ghosts.stems_from_ghost(i) &&
-                                            from_extrapolated[ghosts.parent(i) - ghosts.particles()]);
+    from_extrapolated[i] =
+        extrapolates || (ghosts.stems_from_ghost(i) && from_extrapolated[ghosts.parent(i) - n]);
+    left_out[n + i] = from_extrapolated[i] || (loose && loose->is(ghosts.root(i)));
   }
-  std::vector<std::int32_t> place(ghosts.particles(), -1);
+  for (std::size_t a = 0; loose && a < n; ++a) left_out[a] = loose->is(a);
+  std::vector<std::int32_t> place(n, -1);
   for (const std::size_t i : extrapolated_) {
     const std::int32_t a = ghosts.root(i);
     if (place[a] < 0) {
       place[a] = static_cast<std::int32_t>(stencils_.size());
-      stencils_.push_back(one_sided(r, a, from_extrapolated, spans_the_plane));
+      stencils_.push_back(one_sided(r, a, left_out, spans_the_plane));
     }
     continued_.push_back(continuation(r, i, place[a]));
   }
@@ -47,13 +51,13 @@ StressBehindWalls::Continued StressBehindWalls::continuation(const ReferenceConf
 }
 
 StressBehindWalls::OneSided StressBehindWalls::one_sided(const ReferenceConfiguration& r, std::int32_t a,
-                                                         const std::vector<std::uint8_t>& from_extrapolated,
+                                                         const std::vector<std::uint8_t>& left_out,
                                                          double spans_the_plane) {
-  const auto n = static_cast<std::int32_t>(r.particles());
   OneSided stencil{.particle = a, .neighbours = {}, .gradient = {}};
+  if (left_out[a]) return stencil;
   Mat2 sum = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& pair) {
-    if (b >= n && from_extrapolated[b - n]) return;
+    if (left_out[b]) return;
     const Vec2 g(pair.x, pair.y);
     stencil.neighbours.push_back(b);
     stencil.gradient.push_back(g);

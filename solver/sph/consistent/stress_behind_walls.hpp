@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
 
 namespace porosph {
@@ -13,8 +14,9 @@ namespace porosph {
 class StressBehindWalls {
  public:
   StressBehindWalls() = default;
-  /// `flows`: the soil may spread to rows too thin for a gradient across them.
-  StressBehindWalls(const ReferenceConfiguration& reference, bool flows);
+  /// `flows`: the soil may spread to rows too thin for a gradient across them. `loose`, if given: particles
+  /// that bear no stress and have no part in gradients.
+  StressBehindWalls(const ReferenceConfiguration& reference, bool flows, const LooseParticles* loose);
 
   /// Fills P of the ghosts: mirrored, or extrapolated where the wall bears weight. `piola`: particles, then
   /// ghosts; of the particles, those that uses() names are read.
@@ -35,8 +37,9 @@ class StressBehindWalls {
     Mat2 turn = Mat2::Identity();  ///< from there to the ghost, through walls that mirror the stress
     bool turned = false;
   };
+  /// `left_out`: particles and ghosts that have no part.
   static OneSided one_sided(const ReferenceConfiguration& reference, std::int32_t particle,
-                            const std::vector<std::uint8_t>& from_extrapolated, double spans_the_plane);
+                            const std::vector<std::uint8_t>& left_out, double spans_the_plane);
   static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
                                 std::int32_t stencil);
   void sum_gradients(const std::vector<PlaneTensor>& piola);

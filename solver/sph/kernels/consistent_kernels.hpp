@@ -96,6 +96,7 @@ struct StabilisationView {
 struct FlowView {
   double* viscosity;      ///< mu, and ghost [Pa s]
   double* shear_rate;     ///< gamma where the soil yielded in the last step, or else 0 [1/s]
+  const double* bears;    ///< 1, or 0 for particles that are loose: they bear no stress
   const double* mass;     ///< [kg/m]
   double length_squared;  ///< h^2 [m2]
   double weight;          ///< g dx [m2/s2]

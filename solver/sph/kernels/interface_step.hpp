@@ -61,13 +61,14 @@ template <SoilLaw Law, Watch watch>
                                                               double* const* history, const Found& found) {
   const Gradient gradient = side.gradient(j, t.gradient(i));
   typename Law::History q = load_history<Law>(history, i);
-  const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+  const double bears = watch == Watch::flow ? t.bears[i] : 1;
+  const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
   const bool watched = watch != Watch::nothing;
   const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
   if (watched) t.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
-  const Gradient f = t.deformed(i);
+  const Gradient f = watch == Watch::flow ? t.deformed_flow(i) : t.deformed(i);
   const double density = t.compressed(i, f, found.strain, found.speed_squared);
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;

@@ -33,6 +33,7 @@ struct TileStep {
         viscosity(c.flow.viscosity ? c.flow.viscosity + tile.first : nullptr),
         shear_rate(c.flow.viscosity ? c.flow.shear_rate + tile.first : nullptr),
         hoop(c.fluxes.hoop + (has_hoop<Space> ? tile.first : 0)),
+        bears(c.flow.bears + (c.flow.viscosity ? tile.first : 0)),
         mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
         mu(c.control.viscosity),
         length_squared(c.flow.length_squared),
@@ -71,6 +72,13 @@ struct TileStep {
   /// F after the step.
   [[gnu::always_inline]] Gradient deformed(std::int32_t i) const {
     const Gradient f = plus(gradient_at<Space>(deformation, i), dt, gradient_at<Space>(rate, i));
+    put(deformation, i, f);
+    return f;
+  }
+  /// The same where soil flows: that of a loose particle stays I.
+  [[gnu::always_inline]] Gradient deformed_flow(std::int32_t i) const {
+    const Gradient f = towards_identity(
+        plus(gradient_at<Space>(deformation, i), dt, gradient_at<Space>(rate, i)), 1 - bears[i]);
     put(deformation, i, f);
     return f;
   }
@@ -115,7 +123,7 @@ struct TileStep {
     const double least = sin_phi * density_now * weight, k = strength > least ? strength : least;
     // As k / gamma may be too large for a number: compared as products.
     const double inertial = density_now * length_squared * gamma;
-    const bool bounded = 0.1 * k < (mu - inertial) * gamma;
+    const bool bounded = bears[i] > 0 && 0.1 * k < (mu - inertial) * gamma;
     const double bound = 0.1 * k / (bounded ? gamma : 1) + inertial;
     shear_rate[i] = dt > 0 ? yielding * gamma : shear_rate[i];
     return viscosity[i] = bounded ? bound : mu;
@@ -124,7 +132,7 @@ struct TileStep {
   std::int32_t particle;  ///< the tile's first
   const double *reference_density, *fill, *radius;
   double *stress, *density, *yields, *viscosity, *shear_rate, *hoop;
-  const double* mass;
+  const double *bears, *mass;
   double mu, length_squared, weight, bulk_length, dt, half;
   const double *velocity[Space::dim], *rate[gradients], *correction[matrix];
   double *piola[matrix], *deformation[gradients], *flux[matrix];
@@ -186,13 +194,14 @@ template <class Space, SoilLaw<Space> Law, Watch watch>
                                                  double* const* history, double elastic, const Found& found) {
   const GradientIn<Space> gradient = t.gradient(i);
   typename Law::History q = load_history<Law>(history, i);
-  const Symmetric<Space> old = t.old_stress(i), s = law.step(old, gradient, t.dt, q);
+  const double bears = watch == Watch::flow ? t.bears[i] : 1;
+  const Symmetric<Space> old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
   const bool watched = watch != Watch::nothing;
   const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
   if (watched) t.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
-  const GradientIn<Space> f = t.deformed(i);
+  const GradientIn<Space> f = watch == Watch::flow ? t.deformed_flow(i) : t.deformed(i);
   const double density = t.compressed(i, f, found.strain, found.speed_squared);
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;

@@ -28,6 +28,31 @@ FixedWalls::FixedWalls(const Model& model, double reach) : model_(model), kernel
     wall_.push_back(i < in_fixed ? images[i].wall : wall_[parent - n]);
     pressure_.push_back(model.water.pore_pressure(p.position[root[i]].x(), points_[i].y()));
   }
+  if (std::ranges::any_of(model.soils, &Soil::flows)) continue_along_walls(reach);
+}
+
+/// Rows a spacing apart, but for where soil or an image lies.
+void FixedWalls::continue_along_walls(double reach) {
+  const double dx = model_.spacing;
+  std::vector<Vec2> taken = points_;
+  taken.insert(taken.end(), model_.particles.position.begin(), model_.particles.position.end());
+  for (std::size_t w = 0; w < count_; ++w) {
+    const Wall& wall = model_.walls[w];
+    const double length = (wall.to - wall.from).norm();
+    const Vec2 along = (wall.to - wall.from) / length;
+    std::vector<Vec2> rows;
+    for (double s = 0.5 * dx; s < length; s += dx)
+      for (double depth = 0.5 * dx; depth < reach; depth += dx)
+        rows.push_back(wall.from + s * along - depth * wall.normal);
+    const NeighbourList near = find_neighbours(rows, taken, 0.75 * dx);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!near.of(i).empty()) continue;
+      points_.push_back(rows[i]);
+      volume_.push_back(dx * dx);
+      wall_.push_back(static_cast<std::int32_t>(w));
+      pressure_.push_back(model_.water.pore_pressure(rows[i].x(), rows[i].y()));
+    }
+  }
 }
 
 void FixedWalls::search(std::span<const Vec2> positions, double reach) {

@@ -12,8 +12,9 @@
 namespace porosph {
 
 /// Virtual particles stay where they are: mirror images of the soil as it lies at first, in the fixed walls
-/// and from there in the rollers (corners). They take the stress of the particle that looks at them, and the
-/// velocity -min(d_b / d_a, 1/2) v_a that makes it stick to the wall (Morris et al. 1997; Bui et al. 2008).
+/// and from there in the rollers (corners). Where soil yields, rows of them lie along the rest of each wall
+/// as well, where soil may flow to. They take the stress of the particle that looks at them, and the velocity
+/// -min(d_b / d_a, 1/2) v_a that makes it stick to the wall (Morris et al. 1997; Bui et al. 2008).
 class FixedWalls {
  public:
   /// `reach`: how far from a wall particles may lie that see virtual ones [m].
@@ -48,6 +49,7 @@ class FixedWalls {
   }
 
  private:
+  void continue_along_walls(double reach);
   const Model& model_;
   CubicSpline<2> kernel_;
   std::size_t count_ = 0;

@@ -85,6 +85,10 @@ void PaperDynamics::search() {
   sums_.lists = make_pair_lists(sums_.neighbours);
   sums_.make_room();
   connect_arrays();
+  stop_.clear();
+  for (std::size_t a = 0; a < n; ++a)
+    if (model_.soils[model_.particles.soil[a]].flows())
+      stop_.watch(static_cast<std::int32_t>(a), 0.25 * model_.spacing);
   ++counts.searches;
 }
 
@@ -199,6 +203,7 @@ void PaperDynamics::accelerations(std::span<Vec2> out) {
       if (stabilised) out[a] += stabilisation_at_walls(a);
     }
   }
+  stop_.apply(model_, out);
 }
 
 void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
@@ -215,6 +220,7 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
 }
 
 void PaperDynamics::strain(double dt) {
+  stop_.remember_step(dt);
   points_.take_velocities(model_.particles);
   arrays_.soils = soils_.view();
   arrays_.effective_stress = &model_.particles.stress.data()->xx;
@@ -228,6 +234,7 @@ void PaperDynamics::strain(double dt) {
 void PaperDynamics::visit(StateArchive& state) {
   bool has_searched = !sums_.searched.empty();
   state.value("has_searched", has_searched);
+  stop_.visit(state);
   if (!has_searched) return;
   std::vector<Vec2> then = sums_.searched;
   then.resize(model_.particles.size());

@@ -14,6 +14,7 @@
 #include "solver/sph/paper/tension_control.hpp"
 #include "solver/sph/soil_views.hpp"
 #include "solver/sph/stabilisation/artificial_viscosity.hpp"
+#include "solver/sph/wall_stop.hpp"
 
 namespace porosph {
 
@@ -66,6 +67,7 @@ class PaperDynamics final : public Dynamics {
   PaperPoints points_;
   PaperSums sums_;
   TensionControl tension_;
+  WallStop stop_;         ///< where soil yields
   PaperArrays arrays_{};  ///< all these, as the kernels see them
 };
 
