@@ -125,17 +125,18 @@ bool is_film(const Options& o) { return fs::path(o.out).extension() == ".webp"; 
 struct Spread {
   double largest = 0;  ///< absolute
   std::vector<ValueRange> extents;
-  std::vector<Point> corners;  ///< of boxes around what is shown [m]
+  std::vector<Point> corners;  ///< of boxes around what is shown, where a film needs them [m]
 };
 
 Spread spread_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
-                 const FieldSelection& selection, double deformation) {
+                 const FieldSelection& selection, const Options& o) {
   Spread spread;
   for (std::size_t frame : frames) {
     const Frame read = frame_of(run, frame);
     const std::vector<double> values = values_of(read, selection);
-    for (const Point& corner : shown_box(panel_of(run, read, values, deformation)))
-      spread.corners.push_back(corner);
+    if (is_film(o))
+      for (const Point& corner : shown_box(panel_of(run, read, values, o.deformation)))
+        spread.corners.push_back(corner);
     spread.largest = std::max(spread.largest, largest_of(values));
     spread.extents.push_back(robust_extent(values));
   }
@@ -210,7 +211,7 @@ int render_command(const Arguments& arguments) {
   FinishedRun run = open_run(o->series);
   if (!o->label.empty()) run.label = o->label;
   const std::vector<std::size_t> frames = choose_frames(run.series, o->times);
-  Spread spread = spread_of(run, frames, selection, o->deformation);
+  Spread spread = spread_of(run, frames, selection, *o);
   const ShownUnit unit = shown_unit(selection.name, spread.largest);
   for (ValueRange& e : spread.extents) e = {e.low * unit.factor, e.high * unit.factor};
   ColourScale scale = scale_of(selection, unit, run.scene, read_range("--range", o->range));

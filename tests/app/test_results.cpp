@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "tests/app/porosph.hpp"
+#include "tests/unit/render/image.hpp"
 
 using namespace porosph;
 using Catch::Matchers::Contains;
@@ -72,14 +73,13 @@ TEST_CASE("render draws every frame in one range") {
 }
 
 TEST_CASE("render draws several times as panels of one picture, in one range") {
-  const Workplace place;
-  place.write("small.toml", small_case);
-  REQUIRE(place.porosph("run small.toml --quiet --out run").status == 0);
-  REQUIRE(place.porosph("render run --field PorePressure --out one.png").status == 0);
-  REQUIRE(place.porosph("render run --field PorePressure --time 0 --time last --out two.png").status == 0);
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("render shorter --field PorePressure --out one.png").status == 0);
+  REQUIRE(place.porosph("render shorter --field PorePressure --time 0 --time last --out two.png").status ==
+          0);
   const Image one(place.folder() / "one.png"), two(place.folder() / "two.png");
   CHECK(std::max(two.width() - one.width(), two.height() - one.height()) > 100);
-  CHECK_THAT(place.porosph("render run --field PorePressure --time all --time 0").err,
+  CHECK_THAT(place.porosph("render shorter --field PorePressure --time all --time 0").err,
              Contains("--time all is every frame already"));
 }
 
