@@ -1,5 +1,8 @@
 // porosph import: drawings of each format become cases that can be computed.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/import/ground.hpp"
 #include "app/import/meeting_outlines.hpp"
@@ -82,6 +85,13 @@ TEST_CASE("the levee of the tutorial is computed between its two water levels", 
   const Outcome run = place.porosph("run case.toml --set time.end=0.05");
   CAPTURE(run.err);
   CHECK(run.status == 0);
+  REQUIRE(place.porosph("report results/case --out report").status == 0);
+  const std::string page = text_of(place.folder() / "report/index.html");
+  const auto summary = nlohmann::json::parse(text_of(place.folder() / "results/case/summary.json"));
+  double enters = 0;
+  for (const double flow : summary["seepage"]["through_faces"]) enters += std::max(flow, 0.);
+  CHECK_THAT(page, Contains("Water balance") && Contains("head 4.5 m, (") &&
+                       Contains(fmt::format("{:.3g}", enters)));
 }
 
 TEST_CASE("a drawing in millimetres says so, or is told", "[import]") {
