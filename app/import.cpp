@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string drawing, out, unit, spacing, snap;
-  std::vector<std::string> water, probes, roller, fixed, soils, skipped;
+  std::vector<std::string> water, probes, roller, fixed, soils, skipped, names, empty;
   bool force = false;
 };
 
@@ -50,6 +50,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "fixed", po::value(&o.fixed)->value_name("LAYER"),
       "a layer of rough supports (default: names that begin with fixed)")(
       "skip", po::value(&o.skipped)->value_name("LAYER"), "a layer to leave out")(
+      "name", po::value(&o.names)->value_name("X,Y=SOIL"),
+      "the soil around this point [m], where lines enclose regions and no text names one")(
+      "empty", po::value(&o.empty)->value_name("X,Y"), "no soil is in the region around this point [m]")(
       "force", po::bool_switch(&o.force), "replace a case of that name");
   po::positional_options_description positional;
   positional.add("drawing", 1);
@@ -57,7 +60,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (!parse(arguments, options, positional, "import FILE.dxf [options]",
              "  porosph import cases/drawings/levee.dxf --skip frame --out levee.toml\n"
              "  porosph import cases/drawings/levee.dxf --skip frame --skip probes --spacing \"25 cm\" --out "
-             "fine.toml\n",
+             "fine.toml\n"
+             "  porosph import cases/drawings/levee_lines.dxf --out lines.toml\n",
              values))
     return std::nullopt;
   return o;
@@ -81,6 +85,27 @@ double metres_of(const std::string& unit) {
   return one.value;
 }
 
+drawn::Label label_of(const std::string& option, const std::string& place, const std::string& name) {
+  const auto comma = place.find(',');
+  if (comma == std::string::npos)
+    throw UsageError(fmt::format("{} = {}: must begin with X,Y", option, printable(place)));
+  return {
+      name, "", {read_number(option, place.substr(0, comma)), read_number(option, place.substr(comma + 1))}};
+}
+
+/// The regions that --name and --empty tell of.
+std::vector<drawn::Label> told_regions(const Options& o) {
+  std::vector<drawn::Label> told;
+  for (const std::string& given : o.names) {
+    const auto equals = given.find('=');
+    if (equals == std::string::npos || equals + 1 == given.size())
+      throw UsageError(fmt::format("--name = {}: must be X,Y=SOIL", printable(given)));
+    told.push_back(label_of("--name", given.substr(0, equals), given.substr(equals + 1)));
+  }
+  for (const std::string& given : o.empty) told.push_back(label_of("--empty", given, ""));
+  return told;
+}
+
 drawn::Options roles_of(const Options& o) {
   drawn::Options options;
   const auto add = [&](const std::vector<std::string>& layers, drawn::Role role) {
@@ -93,6 +118,7 @@ drawn::Options roles_of(const Options& o) {
   add(o.fixed, drawn::Role::fixed);
   add(o.skipped, drawn::Role::nothing);
   options.snap = read_length("--snap", o.snap);
+  options.names = told_regions(o);
   return options;
 }
 
@@ -110,6 +136,8 @@ void tell(const drawn::Ground& ground, const drawn::Drawing& drawing, const std:
                             soil.holes.empty() ? "" : fmt::format(", {} holes", soil.holes.size())));
   for (const drawn::WaterLine& line : ground.water)
     say(stdout, fmt::format("water   at {:g} m from {:g} to {:g} m\n", line.level, line.x_from, line.x_to));
+  for (const drawn::EndLevel& end : ground.end_levels)
+    say(stdout, fmt::format("water   at {:g} m at the {} end\n", end.level, end.is_left ? "left" : "right"));
   say(stdout, ground.supports.empty() ? "support fixed base and rollers at both ends, as none is drawn\n"
                                       : fmt::format("support {} as drawn\n", ground.supports.size()));
   for (const ProbeCase& probe : ground.probes)
@@ -134,6 +162,7 @@ int import_command(const Arguments& arguments) {
     const drawn::Drawing drawing = drawn::read_drawing(o->drawing, reader());
     const std::string unit = !o->unit.empty() ? o->unit : drawing.unit.empty() ? "m" : drawing.unit;
     options.metres = metres_of(unit);
+    options.reader = reader();
     const drawn::Ground ground = drawn::ground_of(drawing, options);
     const double spacing =
         o->spacing.empty() ? drawn::usual_spacing(ground) : read_length("--spacing", o->spacing);

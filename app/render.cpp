@@ -1,6 +1,7 @@
 // porosph render: draws pictures of a series.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -22,7 +23,8 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string series, label, field, time, out, range, scale, map, style, arrows;
+  std::string series, label, field, out, range, scale, map, style, arrows;
+  std::vector<std::string> times;
   bool crosses = false;
   double deformation = 1, rate = 10;
   int width = 0, height = 0;
@@ -33,10 +35,11 @@ std::optional<Options> read_options(const Arguments& arguments) {
   po::options_description options;
   options.add_options()("series", po::value(&o.series)->required(), "a .pvd, or the folder of a run")(
       "field", po::value(&o.field)->value_name("NAME[:COMPONENT]")->required(), field_help().c_str())(
-      "time", po::value(&o.time)->value_name("T|last|all")->default_value("last"),
-      "the frame nearest to T seconds, the last frame, or a picture of every frame")(
-      "label", po::value(&o.label)->value_name("TEXT"),
-      "what to call the run in the picture (default: nothing)")(
+      "time", po::value(&o.times)->value_name("T|last|all"),
+      "the frame nearest to T seconds, the last frame (the default), or a picture of every frame; given "
+      "again: "
+      "one picture with a panel each")("label", po::value(&o.label)->value_name("TEXT"),
+                                       "what to call the run in the picture (default: nothing)")(
       "out", po::value(&o.out)->value_name("FILE.png"),
       "the picture: .png, .svg or .pdf, or with --time all a film: .webp (default: PNG beside the series, "
       "named by the "
@@ -67,6 +70,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
           "  porosph render results/foundation --field TotalStress:YY\n"
           "  porosph render results/foundation/particles.pvd --field Displacement --deform 20 --out u.png\n"
           "  porosph render results/foundation --field EffectiveStress:YY --time all --range -110,0\n"
+          "  porosph render results/foundation --field Displacement:Y --time 0.1 --time last\n"
           "  porosph render results/foundation --field StressObliquity --style bands --crosses --out "
           "friction.svg\n",
           values))
@@ -79,7 +83,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
     throw UsageError(fmt::format("--scale = {}: must be linear or logarithmic", o.scale));
   if (!(o.rate >= 0.1 && o.rate <= 60))
     throw UsageError(fmt::format("--rate = {:g}: must be from 0.1 to 60 pictures per second", o.rate));
-  if (fs::path(o.out).extension() == ".webp" && o.time != "all")
+  if (o.times.empty()) o.times = {"last"};
+  if (o.times.size() > 1 && std::ranges::count(o.times, "all") > 0)
+    throw UsageError("--time all is every frame already: give it alone");
+  if (fs::path(o.out).extension() == ".webp" && o.times[0] != "all")
     throw UsageError(fmt::format("--out = {}: a film needs --time all", o.out));
   return o;
 }
@@ -92,19 +99,22 @@ ColourMap read_map(const std::string& name, const FieldSelection& selection) {
   throw UsageError(fmt::format("--map = {}: must be viridis, cividis or cool_warm", name));
 }
 
-std::vector<std::size_t> choose_frames(const Series& series, const std::string& time) {
-  if (time == "last") return {series.frames.size() - 1};
-  if (time != "all") return {frame_at(series, read_number("--time", time))};
-  std::vector<std::size_t> all(series.frames.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  return all;
+std::vector<std::size_t> choose_frames(const Series& series, const std::vector<std::string>& times) {
+  std::vector<std::size_t> chosen;
+  for (const std::string& time : times)
+    if (time == "all")
+      for (std::size_t i = 0; i < series.frames.size(); ++i) chosen.push_back(i);
+    else
+      chosen.push_back(time == "last" ? series.frames.size() - 1
+                                      : frame_at(series, read_number("--time", time)));
+  return chosen;
 }
 
 fs::path picture_path(const Options& o, const FinishedRun& run, const FieldSelection& selection,
                       std::size_t frame) {
   fs::path path = o.out.empty() ? run.folder / (file_name(selection.text()) + ".png") : fs::path(o.out);
   require_picture_name(path);
-  if (o.time == "all")
+  if (o.times[0] == "all")
     path.replace_filename(fmt::format("{}_{:06}{}", path.stem().string(), frame, path.extension().string()));
   return path;
 }
@@ -115,36 +125,18 @@ bool is_film(const Options& o) { return fs::path(o.out).extension() == ".webp"; 
 struct Spread {
   double largest = 0;  ///< absolute
   std::vector<ValueRange> extents;
-  std::vector<Point> corners;  ///< of boxes around the particles [m]
+  std::vector<Point> corners;  ///< of boxes around what is shown, where a film needs them [m]
 };
 
-/// Two corners of the box around a frame's particles, of those that have not flown further than half the size
-/// of the soil.
-std::vector<Point> corners_of(const FinishedRun& run, const Frame& frame) {
-  Point from = Point::Constant(-never), to = Point::Constant(never);
-  if (run.scene) {
-    Point low = Point::Constant(never), high = Point::Constant(-never);
-    for (const SoilCase& soil : run.scene->soils)
-      for (const Point& p : soil.polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    const double reach = 0.5 * (high - low).maxCoeff();
-    from = low - Point::Constant(reach), to = high + Point::Constant(reach);
-  }
-  Point low = Point::Constant(never), high = Point::Constant(-never);
-  for (std::size_t i = 0; i < frame.points.size(); i += 3) {
-    const Point p(frame.points[i], frame.points[i + 1]);
-    if ((p.array() > from.array()).all() && (p.array() < to.array()).all())
-      low = low.cwiseMin(p), high = high.cwiseMax(p);
-  }
-  return low.allFinite() && high.allFinite() ? std::vector<Point>{low, high} : std::vector<Point>{};
-}
-
 Spread spread_of(const FinishedRun& run, const std::vector<std::size_t>& frames,
-                 const FieldSelection& selection) {
+                 const FieldSelection& selection, const Options& o) {
   Spread spread;
   for (std::size_t frame : frames) {
     const Frame read = frame_of(run, frame);
     const std::vector<double> values = values_of(read, selection);
-    for (const Point& corner : corners_of(run, read)) spread.corners.push_back(corner);
+    if (is_film(o))
+      for (const Point& corner : shown_box(panel_of(run, read, values, o.deformation)))
+        spread.corners.push_back(corner);
     spread.largest = std::max(spread.largest, largest_of(values));
     spread.extents.push_back(robust_extent(values));
   }
@@ -164,6 +156,25 @@ void set_range(ColourScale& scale, const Spread& spread, const Options& o, const
     throw UsageError(fmt::format("--range = {}: logarithmic colours need a range above zero", o.range));
   else
     scale.logarithmic = true;
+}
+
+/// Beside other times the panel's title is its time, as the figure's names the field.
+void set_titles(ContourPanel& panel, const FinishedRun& run, std::size_t frame,
+                const FieldSelection& selection, const Options& o) {
+  const double time = run.series.frames[frame].time;
+  const bool alone = o.times.size() == 1;
+  panel.title = alone ? shown_name(selection) + (run.label.empty() ? "" : ", " + run.label) : time_text(time);
+  if (alone) panel.subtitle = panel_subtitle(run, time, run.label);
+  if (o.deformation == 1) return;
+  panel.subtitle += fmt::format("{}displacements × {:g}", alone ? ", " : "", o.deformation);
+}
+
+/// The case's title; of several times with the field and the run's label.
+std::string figure_title(const FinishedRun& run, const FieldSelection& selection, const Options& o) {
+  const std::string title = run.scene ? run.scene->title : "";
+  if (o.times.size() == 1) return title;
+  std::string field = title.empty() ? shown_name(selection) : title + ": " + name_in_sentence(selection);
+  return run.label.empty() ? field : field + ", " + run.label;
 }
 
 /// Adds what is drawn on top, and says so in the subtitle.
@@ -199,29 +210,33 @@ int render_command(const Arguments& arguments) {
     throw UsageError(fmt::format("--arrows = {}: must be Displacement or Velocity", o->arrows));
   FinishedRun run = open_run(o->series);
   if (!o->label.empty()) run.label = o->label;
-  const std::vector<std::size_t> frames = choose_frames(run.series, o->time);
-  Spread spread = spread_of(run, frames, selection);
+  const std::vector<std::size_t> frames = choose_frames(run.series, o->times);
+  Spread spread = spread_of(run, frames, selection, *o);
   const ShownUnit unit = shown_unit(selection.name, spread.largest);
   for (ValueRange& e : spread.extents) e = {e.low * unit.factor, e.high * unit.factor};
   ColourScale scale = scale_of(selection, unit, run.scene, read_range("--range", o->range));
   scale.map = read_map(o->map, selection);
   set_range(scale, spread, *o, selection);
-  const auto figure_of = [&](std::size_t i) {
+  const auto panel_at = [&](std::size_t i) {
     const Frame frame = frame_of(run, i);
     ContourPanel panel =
         panel_of(run, frame, scaled(values_of(frame, selection), unit.factor), o->deformation, style);
-    panel.title = shown_name(selection) + (run.label.empty() ? "" : ", " + run.label);
-    panel.subtitle = panel_subtitle(run, run.series.frames[i].time, run.label);
-    if (o->deformation != 1) panel.subtitle += fmt::format(", displacements × {:g}", o->deformation);
+    set_titles(panel, run, i, selection, *o);
     add_marks(panel, frame, *o);
-    return ContourFigure{.title = run.scene ? run.scene->title : "",
-                         .panels = {std::move(panel)},
-                         .scale = scale,
-                         .style = style,
-                         .include = {},
-                         .columns = 1,
-                         .width = o->width,
-                         .height = o->height};
+    return panel;
+  };
+  ContourFigure empty{.title = figure_title(run, selection, *o),
+                      .panels = {},
+                      .scale = scale,
+                      .style = style,
+                      .include = {},
+                      .columns = o->times.size() > 1 ? 0 : 1,
+                      .width = o->width,
+                      .height = o->height};
+  const auto figure_of = [&](std::size_t i) {
+    ContourFigure figure = empty;
+    figure.panels = {panel_at(i)};
+    return figure;
   };
   if (is_film(*o)) {
     const fs::path path = o->out;
@@ -237,11 +252,17 @@ int render_command(const Arguments& arguments) {
     std::cout << path.string() << '\n';
     return Exit::done;
   }
-  for (std::size_t i : frames) {
-    const fs::path path = picture_path(*o, run, selection, i);
+  const auto save = [&](const ContourFigure& figure, std::size_t frame) {
+    const fs::path path = picture_path(*o, run, selection, frame);
     if (path.has_parent_path()) make_folder(path.parent_path());
-    save_contours(figure_of(i), path);
+    save_contours(figure, path);
     std::cout << path.string() << '\n';
+  };
+  if (o->times.size() > 1) {
+    for (const std::size_t i : frames) empty.panels.push_back(panel_at(i));
+    save(empty, frames[0]);
+  } else {
+    for (const std::size_t i : frames) save(figure_of(i), i);
   }
   return Exit::done;
 }

@@ -80,23 +80,32 @@ Extent soil_extent(const Scenery& scenery) {
   return extent;
 }
 
-/// The middle of the particles, all but 0.5 % at either end in each direction: all that has slid or run out,
+/// What hangs together: the middle of the particles, all but 0.5 % at either end in each direction, and
+/// beyond it those that follow each other without a gap wider than `gap` [m]: all that has slid or run out,
 /// not what was thrown off.
-Extent bulk_of(const std::vector<Point>& positions) {
+Extent bulk_of(const std::vector<Point>& positions, double gap) {
   Extent bulk;
-  std::vector<Point> finite;
-  std::ranges::copy_if(positions, std::back_inserter(finite), [](const Point& p) { return p.allFinite(); });
-  if (finite.empty()) return bulk;
-  const auto count = static_cast<std::ptrdiff_t>(finite.size());
-  const std::ptrdiff_t left_out = std::min((count + 199) / 200, (count - 1) / 2);
-  const auto at = [&](int axis, std::ptrdiff_t place) {
-    std::ranges::nth_element(finite, finite.begin() + place, {}, [&](const Point& p) { return p[axis]; });
-    return finite[static_cast<std::size_t>(place)][axis];
+  std::vector<double> along;
+  const auto ends = [&](int axis) {
+    along.clear();
+    for (const Point& p : positions)
+      if (p.allFinite()) along.push_back(p[axis]);
+    std::ranges::sort(along);
+    const std::size_t left_out = std::min((along.size() + 199) / 200, (along.size() - 1) / 2);
+    std::size_t low = left_out, high = along.size() - 1 - left_out;
+    while (low > 0 && along[low] - along[low - 1] <= gap) --low;
+    while (high + 1 < along.size() && along[high + 1] - along[high] <= gap) ++high;
+    return std::pair(along[low], along[high]);
   };
-  bulk.include(at(0, left_out), at(1, left_out));
-  bulk.include(at(0, count - 1 - left_out), at(1, count - 1 - left_out));
+  if (std::ranges::none_of(positions, [](const Point& p) { return p.allFinite(); })) return bulk;
+  const auto [left, right] = ends(0);
+  const auto [bottom, top] = ends(1);
+  bulk.include(left, bottom);
+  bulk.include(right, top);
   return bulk;
 }
+
+constexpr double widest_gap = 0.1;  // between particles that run out together, over the size of the soil
 
 /// Soil and particles. Where the soil is known, single particles that have flown further than half its size
 /// do not count, and nothing does beyond three times its size.
@@ -110,7 +119,7 @@ Extent body_extent(const ContourPanel& panel, const std::vector<Point>& position
     box->include(soil.x_low, soil.y_low, reach);
     box->include(soil.x_high, soil.y_high, reach);
   }
-  if (const Extent bulk = bulk_of(positions); limited && bulk.width() >= 0) {
+  if (const Extent bulk = bulk_of(positions, widest_gap * size); limited && bulk.width() >= 0) {
     const auto within = [&](double x, double y) {
       limit.include(std::clamp(x, furthest.x_low, furthest.x_high),
                     std::clamp(y, furthest.y_low, furthest.y_high));
@@ -399,6 +408,11 @@ void with_drawing(const ContourFigure& figure, Use&& use) {
 }
 
 }  // namespace
+
+std::array<Point, 2> shown_box(const ContourPanel& panel) {
+  const Extent body = body_extent(panel, drawn_positions(panel.particles));
+  return {Point(body.x_low, body.y_low), Point(body.x_high, body.y_high)};
+}
 
 void save_contours(const ContourFigure& figure, const std::filesystem::path& path) {
   with_drawing(figure, [&](const Drawing& drawing) { save_drawing(drawing, path); });

@@ -60,6 +60,9 @@ struct ContourFigure {
   int width = 0, height = 0;        ///< [pixels]; 0: fitted to the content, at most 1600 x 1200
 };
 
+/// Two corners of what a picture of the panel shows of soil and particles, without what was thrown off [m].
+std::array<Point, 2> shown_box(const ContourPanel& panel);
+
 /// Draws the figure as PNG, SVG or PDF, by the extension. Same figure, same bytes. May be called from any
 /// thread. Throws std::runtime_error for arrays of unequal length, a panel without particles, an empty range,
 /// a picture that is too small for its panels, a missing font or a file that cannot be written.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "app/import/drawn_water.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/toml_text.hpp"
 
@@ -16,17 +18,6 @@ constexpr const char* fill_in = "FILL IN";
 
 // Usual values of a soil that nothing is known of.
 constexpr double youngs_modulus = 20e6, poissons_ratio = 0.3, saturated_weight = 20e3;
-
-struct Box {
-  Point low = Point::Constant(never), high = Point::Constant(-never);
-};
-
-Box box_of(const Ground& ground) {
-  Box box;
-  for (const SoilCase& soil : ground.soils)
-    for (const Point& p : soil.polygon) box.low = box.low.cwiseMin(p), box.high = box.high.cwiseMax(p);
-  return box;
-}
 
 /// The largest of 1, 2, 2.5 and 5 times a power of ten that is not above x.
 double round_number_below(double x) {
@@ -43,15 +34,6 @@ std::string polygon(const Polygon& ring) {
   std::string text;
   for (const Point& p : ring) text += (text.empty() ? "" : ", ") + number(p);
   return "[" + text + "]";
-}
-
-bool is_everywhere(const WaterLine& water, const Box& box) {
-  const double near = 1e-3 * (box.high.x() - box.low.x());
-  return water.x_from <= box.low.x() + near && water.x_to >= box.high.x() - near;
-}
-
-bool stands_still(const Ground& ground, const Box& box) {
-  return ground.water.size() == 1 && is_everywhere(ground.water[0], box);
 }
 
 /// Long enough for the slowest vibration, about 4 H / c_s, to die down forty times over [s].
@@ -83,33 +65,25 @@ std::string soil_text(const SoilCase& soil, bool water_flows) {
   return text;
 }
 
-/// The water that stands beside a stretch of the surface, if any does.
-const WaterLine* water_beside(const Stretch& stretch, const std::vector<WaterLine>& water) {
-  const auto [left, right] = std::minmax(stretch.from.x(), stretch.to.x());
-  const WaterLine* highest = nullptr;
-  for (const WaterLine& line : water) {
-    const double shared = std::min(right, line.x_to) - std::max(left, line.x_from);
-    const bool below = std::min(stretch.from.y(), stretch.to.y()) < line.level;
-    if (shared > 1e-6 && below && (highest == nullptr || line.level > highest->level)) highest = &line;
-  }
-  return highest;
-}
-
-std::string face_text(const Stretch& stretch, const WaterLine* water) {
-  std::string text = fmt::format("\n[[water.face]]\nkind = \"{}\"\n", water != nullptr ? "head" : "seepage");
-  if (water != nullptr) text += fmt::format("level = {}\n", number(water->level));
+std::string face_text(const Stretch& stretch, std::optional<double> level) {
+  std::string text = fmt::format("\n[[water.face]]\nkind = \"{}\"\n", level ? "head" : "seepage");
+  if (level) text += fmt::format("level = {}\n", number(*level));
   return text + fmt::format("from = {}\nto = {}\n", number(stretch.from), number(stretch.to));
 }
 
-std::string water_text(const Ground& ground, const Box& box) {
-  if (ground.water.empty()) return "";
-  if (stands_still(ground, box)) return fmt::format("\n[water]\nlevel = {}\n", number(ground.water[0].level));
+std::string water_text(const Ground& ground) {
+  if (!has_water(ground)) return "";
+  if (stands_still(ground)) return fmt::format("\n[water]\nlevel = {}\n", number(ground.water[0].level));
   std::string text =
       "\n[water]\nmode = \"steady\"   # between the levels that were drawn\n\n"
-      "[[water.face]]    # base and flanks: nothing passes where no later face says otherwise\n"
+      "[[water.face]]    # base and ends: nothing passes where no later face says otherwise\n"
       "kind = \"closed\"\n";
-  for (const Stretch& stretch : ground.outline)
-    if (stretch.side == Side::surface) text += face_text(stretch, water_beside(stretch, ground.water));
+  for (const Stretch& stretch : ground.outline) {
+    if (const EndLevel* end = end_level(stretch, ground)) text += face_text(stretch, end->level);
+    if (stretch.side != Side::surface) continue;
+    const WaterLine* water = water_beside(stretch, ground.water);
+    text += face_text(stretch, water != nullptr ? std::optional(water->level) : std::nullopt);
+  }
   return text;
 }
 
@@ -142,14 +116,14 @@ double usual_spacing(const Ground& ground) {
 std::string case_of_ground(const Ground& ground, double spacing, const std::string& title,
                            const std::string& source) {
   const Box box = box_of(ground);
-  const bool water_flows = !ground.water.empty() && !stands_still(ground, box);
+  const bool water_flows = has_water(ground) && !stands_still(ground);
   std::string text = fmt::format(
       "# Imported from {}. Lines marked {} hold usual values that no drawing knows:\n"
       "# give those of your soils. Numbers are in SI units; text may carry other ones.\n"
       "title = {}\n\n[particles]\nspacing = {}\n",
       source, fill_in, toml_text(title), number(spacing));
   for (const SoilCase& soil : ground.soils) text += soil_text(soil, water_flows);
-  text += water_text(ground, box) + supports_text(ground);
+  text += water_text(ground) + supports_text(ground);
   text += fmt::format(
       "\n[loading]\ndamping = \"adaptive\"\n\n[time]\nend = {}   # seconds; at rest it ends by "
       "itself\ncourant = "

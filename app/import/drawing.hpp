@@ -34,8 +34,23 @@ class DrawingError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An end of a line that meets no other one.
+struct Gap {
+  Point at = Point::Zero();
+  double width = 0;  ///< to the nearest other line; negative: there is none
+};
+
+/// What lines enclose.
+struct Regions {
+  std::vector<std::vector<Polygon>> rings;  ///< of each region: its outline, then its holes
+  std::vector<Gap> gaps;
+};
+
 /// Reads a DXF, GeoJSON, CSV or WKT file by `reader`, the program read_drawing. Throws DrawingError, which
 /// names the file.
 Drawing read_drawing(const std::filesystem::path& file, const std::filesystem::path& reader);
+
+/// Cuts lines where they cross and joins the pieces to regions, by the same program. Throws DrawingError.
+Regions regions_between(const std::vector<Polygon>& lines, const std::filesystem::path& reader);
 
 }  // namespace porosph::drawn

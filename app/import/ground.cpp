@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/import/drawn_water.hpp"
 #include "app/import/meeting_outlines.hpp"
 #include "solver/case/outline_edges.hpp"
 
@@ -34,6 +35,13 @@ std::string name_of(const std::string& text) {
   return name.empty() ? "unnamed" : name.substr(0, 32);
 }
 
+/// What a text of several lines begins with: the lines below the name are mostly its properties.
+std::string first_line(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
+}
+
 /// The name, numbered where it was given before.
 std::string unlike_others(const std::string& name, std::set<std::string>& given) {
   for (int i = 1;; ++i) {
@@ -53,7 +61,8 @@ class Gatherer {
     for (const auto& [what, count] : left_out_) ground_.notes.push_back(fmt::format("{} x {}", count, what));
   }
 
-  std::vector<Region> regions;  ///< soils as drawn
+  Linework soils;                    ///< as drawn
+  std::vector<Polygon> water_lines;  ///< open ones
   Ground finished() && { return std::move(ground_); }
 
  private:
@@ -92,12 +101,17 @@ class Gatherer {
   }
 
   void add_soil(const Shape& shape) {
-    if (shape.kind == ShapeKind::point) return leave_out(shape, "");
-    if (shape.kind == ShapeKind::line && !is_closed(in_metres(shape.rings[0])))
-      return leave_out(shape, ", as it is not closed");
-    Region region{unlike_others(name_of(shape.layer), names_), {}};
-    for (const Polygon& ring : shape.rings) region.rings.push_back(in_metres(ring));
-    regions.push_back(std::move(region));
+    const Polygon points = in_metres(shape.rings[0]);
+    if (shape.kind == ShapeKind::point) {
+      if (shape.text.empty()) return leave_out(shape, "");
+      soils.texts.push_back({first_line(shape.text), shape.layer, points[0]});
+    } else if (shape.kind == ShapeKind::line && !is_closed(points)) {
+      soils.lines.push_back({shape.layer, points});
+    } else {
+      Region region{shape.layer, {}};
+      for (const Polygon& ring : shape.rings) region.rings.push_back(in_metres(ring));
+      soils.closed.push_back(std::move(region));
+    }
   }
 
   void add_water(const Shape& shape) {
@@ -107,16 +121,8 @@ class Gatherer {
       const auto [left, right] = std::ranges::minmax_element(line, {}, [](const Point& p) { return p.x(); });
       const auto top = std::ranges::max_element(line, {}, [](const Point& p) { return p.y(); });
       ground_.water.push_back({left->x(), right->x(), top->y()});
-      return;
-    }
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const auto [left, right] = std::minmax(line[i].x(), line[i + 1].x());
-      if (std::abs(line[i].y() - line[i + 1].y()) > options_.snap)
-        throw DrawingError(fmt::format(
-            "layer '{}': water falls from ({:g}, {:g}) to ({:g}, {:g}) m, but only the level surface of "
-            "standing water can be taken; water between two levels is computed by the case itself",
-            shape.layer, line[i].x(), line[i].y(), line[i + 1].x(), line[i + 1].y()));
-      ground_.water.push_back({left, right, line[i].y()});
+    } else {
+      water_lines.push_back(line);
     }
   }
 
@@ -157,20 +163,9 @@ class Gatherer {
   const Options& options_;
   Ground ground_;
   std::map<std::string, int> left_out_;
-  std::set<std::string> names_, probe_names_;
+  std::set<std::string> probe_names_;
   std::vector<ProbeCase> points_, texts_;  // of probes, as drawn
 };
-
-bool is_inside(const Point& p, const Polygon& outline) {
-  bool inside = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Point &a = outline[i], &b = outline[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
-}
 
 bool is_in_soil(const Point& p, const std::vector<SoilCase>& soils) {
   return std::ranges::any_of(soils, [&](const SoilCase& soil) {
@@ -226,6 +221,25 @@ void require_known_layers(const Drawing& drawing, const Options& options) {
   }
 }
 
+/// Soils as closed shapes, or as what lines enclose; their names fit a case, each one once.
+std::vector<Region> regions_of(Linework& drawn, const Options& options, std::vector<std::string>& notes) {
+  std::vector<Region> regions;
+  if (drawn.lines.empty() && drawn.told.empty()) {
+    std::map<std::string, int> texts;  // by layer
+    for (const Label& text : drawn.texts) ++texts[text.layer];
+    for (const auto& [layer, count] : texts)
+      notes.push_back(fmt::format("{} x text on layer '{}': left out", count, layer));
+    regions = std::move(drawn.closed);
+  } else {
+    NamedRegions named = regions_of_lines(drawn, options.snap, options.reader);
+    notes.insert(notes.end(), named.notes.begin(), named.notes.end());
+    regions = std::move(named.regions);
+  }
+  std::set<std::string> names;
+  for (Region& region : regions) region.name = unlike_others(name_of(region.name), names);
+  return regions;
+}
+
 }  // namespace
 
 Role role_of(const std::string& layer, const Options& options) {
@@ -248,12 +262,15 @@ Ground ground_of(const Drawing& drawing, const Options& options) {
     throw DrawingError(fmt::format("has {} points; at most {} are taken", points, most_points));
 
   Gatherer gatherer(drawing, options);
-  std::vector<Region> regions = std::move(gatherer.regions);
+  Linework drawn = std::move(gatherer.soils);
+  const std::vector<Polygon> water_lines = std::move(gatherer.water_lines);
   Ground ground = std::move(gatherer).finished();
+  drawn.told = options.names;
+  std::vector<Region> regions = regions_of(drawn, options, ground.notes);
   for (const std::string& note : make_outlines_meet(regions, options.snap)) ground.notes.push_back(note);
   if (regions.empty())
-    throw DrawingError(fmt::format("has no closed shape that could be a soil{}{}",
-                                   ground.notes.empty() ? "" : ": ", fmt::join(ground.notes, "; ")));
+    throw DrawingError(fmt::format("has no shape that could be a soil{}{}", ground.notes.empty() ? "" : ": ",
+                                   fmt::join(ground.notes, "; ")));
   for (Region& region : regions) {
     SoilCase soil;
     soil.name = region.name;
@@ -262,6 +279,8 @@ Ground ground_of(const Drawing& drawing, const Options& options) {
     ground.soils.push_back(std::move(soil));
   }
   ground.outline = outline_of(ground.soils, options.snap);
+  add_water_lines(water_lines, options.snap, ground);
+  require_something_drives(ground);
   std::erase_if(ground.probes, [&](const ProbeCase& probe) {
     const bool outside = !is_in_soil(probe.position, ground.soils);
     if (outside)

@@ -47,11 +47,11 @@ Polygon without_repeats(const Polygon& ring) {
   return kept;
 }
 
-/// The ring with those of the corners that lie on its edges.
-Polygon with_corners(const Polygon& ring, const std::vector<Point>& corners, double snap) {
+/// The line with those of the corners that lie on its edges.
+Polygon with_corners(const Polygon& line, const std::vector<Point>& corners, double snap) {
   Polygon all;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point &a = line[i], &b = line[i + 1];
     const double length = (b - a).norm();
     const Point along = (b - a) / length;
     std::vector<std::pair<double, Point>> on_edge;
@@ -63,22 +63,31 @@ Polygon with_corners(const Polygon& ring, const std::vector<Point>& corners, dou
     all.push_back(a);
     for (const auto& [at, c] : on_edge) all.push_back(c);
   }
+  all.push_back(line.back());
   return all;
+}
+
+bool is_near(const Point& p, const Polygon& outline, double snap) {
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Point &a = outline[i], &b = outline[j];
+    const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    if ((p - a - t * (b - a)).norm() <= snap) return true;
+  }
+  return false;
 }
 
 /// Whether every corner of `inner` is inside `outer`, none on its outline.
 bool encloses(const Polygon& outer, const Polygon& inner, double snap) {
-  for (const Point& p : inner) {
-    bool inside = false;
-    for (std::size_t i = 0, j = outer.size() - 1; i < outer.size(); j = i++) {
-      const Point &a = outer[i], &b = outer[j];
-      const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-      if ((p - a - t * (b - a)).norm() <= snap) return false;
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-    if (!inside) return false;
+  return std::ranges::all_of(inner,
+                             [&](const Point& p) { return !is_near(p, outer, snap) && is_inside(p, outer); });
+}
+
+/// Whether every corner and the middle of every edge of `inner` is inside `outer` or on its outline.
+bool covers(const Polygon& outer, const Polygon& inner, double snap) {
+  for (std::size_t i = 0, j = inner.size() - 1; i < inner.size(); j = i++) {
+    const Point middle = (inner[i] + inner[j]) / 2;
+    for (const Point& p : {inner[i], middle})
+      if (!is_near(p, outer, snap) && !is_inside(p, outer)) return false;
   }
   return true;
 }
@@ -111,6 +120,28 @@ std::optional<std::size_t> parent_of(const std::vector<Region>& regions, std::si
 
 }  // namespace
 
+bool is_inside(const Point& p, const Polygon& outline) {
+  bool inside = false;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Point &a = outline[i], &b = outline[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+double make_lines_meet(std::vector<Polygon>& lines, double snap) {
+  Corners corners(snap);
+  for (Polygon& line : lines) {
+    for (Point& p : line) p = corners.place(p);
+    line.erase(std::unique(line.begin(), line.end()), line.end());
+  }
+  std::erase_if(lines, [](const Polygon& line) { return line.size() < 2; });
+  for (Polygon& line : lines) line = with_corners(line, corners.all(), snap);
+  return corners.farthest();
+}
+
 std::vector<std::string> make_outlines_meet(std::vector<Region>& regions, double snap) {
   std::vector<std::string> notes;
   Corners corners(snap);
@@ -130,7 +161,9 @@ std::vector<std::string> make_outlines_meet(std::vector<Region>& regions, double
   for (Region& region : regions)
     for (std::size_t k = 0; k < region.rings.size(); ++k) {
       Polygon& ring = region.rings[k];
+      ring.push_back(ring.front());
       ring = with_corners(ring, corners.all(), snap);
+      ring.pop_back();
       if ((twice_area(ring) > 0) != (k == 0)) std::ranges::reverse(ring);
     }
   for (std::size_t i = 0; i < regions.size(); ++i)
@@ -144,7 +177,7 @@ std::vector<std::string> make_outlines_meet(std::vector<Region>& regions, double
       std::vector<Polygon>& rings = regions[*parent].rings;
       Polygon hole = regions[i].rings[0];
       const bool is_drawn = std::any_of(rings.begin() + 1, rings.end(),
-                                        [&](const Polygon& ring) { return same_corners(ring, hole); });
+                                        [&](const Polygon& ring) { return covers(ring, hole, snap); });
       if (is_drawn) continue;
       require_apart(hole, regions[i].name, regions[*parent]);
       std::ranges::reverse(hole);

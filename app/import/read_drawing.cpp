@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/import/drawing.hpp"
@@ -17,12 +19,26 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-/// What a program prints. Throws DrawingError where it cannot be started.
-std::string output_of(const fs::path& program, const std::string& argument) {
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// A file without a name that holds this text, to be read from its beginning.
+File file_of(const std::string& text) {
+  File file(std::tmpfile(), &std::fclose);
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+      std::fflush(file.get()) != 0)
+    throw DrawingError("no temporary file to hand over the lines by");
+  std::rewind(file.get());
+  return file;
+}
+
+/// What a program prints that is given this input. Throws DrawingError where it cannot be started.
+std::string output_of(const fs::path& program, const std::string& argument, const std::string& input) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw DrawingError("no pipe to read the drawing by");
+  const File given_to = file_of(input);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(given_to.get()), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
   std::string name = program.string(), given = argument;
@@ -40,6 +56,15 @@ std::string output_of(const fs::path& program, const std::string& argument) {
   int status = 0;
   waitpid(child, &status, 0);
   return text;
+}
+
+/// The same as JSON. Throws DrawingError also where the program gave up.
+Json answer_of(const fs::path& program, const std::string& argument, const std::string& input) {
+  Json answer = Json::parse(output_of(program, argument, input), nullptr, false);
+  if (answer.is_discarded()) throw DrawingError("GDAL gave up reading it");
+  if (answer.contains("error"))
+    throw DrawingError(fmt::format("cannot be read: {}", answer["error"].get<std::string>()));
+  return answer;
 }
 
 Polygon ring_of(const Json& points) {
@@ -77,16 +102,34 @@ Drawing read_drawing(const fs::path& file, const fs::path& reader) {
         fmt::format("{}: drawings cannot be read here: this program was built without GDAL (Debian: install "
                     "libgdal-dev and build it again, or install the package porosph-drawings)",
                     file.string()));
-  const Json answer = Json::parse(output_of(reader, fs::absolute(file).string()), nullptr, false);
-  if (answer.is_discarded()) throw DrawingError(fmt::format("{}: GDAL gave up reading it", file.string()));
-  if (answer.contains("error"))
-    throw DrawingError(
-        fmt::format("{}: cannot be read: {}", file.string(), answer["error"].get<std::string>()));
   try {
-    return drawing_of(answer);
+    return drawing_of(answer_of(reader, fs::absolute(file).string(), ""));
   } catch (const Json::exception&) {
     throw DrawingError(fmt::format("{}: holds coordinates that are no finite numbers", file.string()));
+  } catch (const DrawingError& error) {
+    throw DrawingError(fmt::format("{}: {}", file.string(), error.what()));
   }
+}
+
+Regions regions_between(const std::vector<Polygon>& lines, const fs::path& reader) {
+  Json asked = {{"lines", Json::array()}};
+  for (const Polygon& line : lines) {
+    Json points = Json::array();
+    for (const Point& p : line) points.push_back({p.x(), p.y()});
+    asked["lines"].push_back(std::move(points));
+  }
+  const Json answer = answer_of(reader, "--regions", asked.dump());
+  Regions found;
+  for (const Json& region : answer.at("regions")) {
+    found.rings.emplace_back();
+    for (const Json& ring : region) {
+      found.rings.back().push_back(ring_of(ring));
+      found.rings.back().back().pop_back();  // the first point again
+    }
+  }
+  for (const Json& gap : answer.at("gaps"))
+    found.gaps.push_back({ring_of(Json::array({gap.at("at")})).front(), gap.at("gap").get<double>()});
+  return found;
 }
 
 }  // namespace porosph::drawn

@@ -6,6 +6,8 @@
 //
 // Kinds are area (outline, then holes), line and point (one ring each). DXF, GeoJSON and CSV are GDAL's; a
 // .wkt file has one shape a line, "layer: POLYGON ((...))".
+//
+// read_drawing --regions: reads lines from the standard input and writes what they enclose (regions.hpp).
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
@@ -19,6 +21,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "app/read_drawing/regions.hpp"
 
 namespace {
 
@@ -107,9 +111,9 @@ void join_rows(Found& found) {
     if (bare) joined.back()["kind"] = "line", joined.back()["of_rows"] = true;
   }
   for (Json& shape : joined) {
-    shape.erase("of_rows");
-    if (shape["kind"] == "line" && shape["rings"][0].size() == 1) shape["kind"] = "point";
-    if (shape["kind"] == "line") shape["kind"] = "rows";  // a line, or an outline where a soil is meant
+    if (shape.erase("of_rows") == 0) continue;
+    // A line, or an outline where a soil is meant.
+    shape["kind"] = shape["rings"][0].size() == 1 ? "point" : "rows";
   }
   found.shapes = std::move(joined);
 }
@@ -193,8 +197,9 @@ int main(int count, char** arguments) {
   CPLSetErrorHandler(CPLQuietErrorHandler);
   Json answer;
   try {
-    if (count != 2) throw std::runtime_error("usage: read_drawing FILE");
-    answer = read(arguments[1]);
+    if (count != 2) throw std::runtime_error("usage: read_drawing FILE|--regions");
+    const std::string asked = arguments[1];
+    answer = asked == "--regions" ? porosph::drawn::regions_between(Json::parse(std::cin)) : read(asked);
   } catch (const std::exception& error) {
     answer = {{"error", error.what()}};
   }

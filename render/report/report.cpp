@@ -272,6 +272,10 @@ std::string probe_section(const Material& m) {
 
 std::string difference_sections(const Material& m) {
   std::string body;
+  if (const Rows rows = water_table(m.runs); rows.size() > 1)
+    body += html::section("Water balance",
+                          "<p>What flows into the soil, per metre of its length; negative: out of it.</p>\n" +
+                              html::table(rows));
   if (const Rows rows = energy_table(m.runs); rows.size() > 1)
     body +=
         html::section("Energy", "<p>Where the energy went that gravity released.</p>\n" + html::table(rows));

@@ -37,6 +37,19 @@ FieldSelection selection_of(const std::string& text) {
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
 }
 
+/// "head 4.5 m, (0, 0) to (17, 6) m".
+std::string face_text(const HydraulicFaceCase& face) {
+  const char* kind = face.kind == FaceKind::head      ? "head"
+                     : face.kind == FaceKind::seepage ? "seepage"
+                     : face.kind == FaceKind::flux    ? "flux"
+                                                      : "closed";
+  const std::string level = face.kind == FaceKind::head ? fmt::format(" {:g} m", face.level) : "";
+  const std::string place = face.everywhere() ? "the whole outline"
+                                              : fmt::format("({:g}, {:g}) to ({:g}, {:g}) m", face.from.x(),
+                                                            face.from.y(), face.to.x(), face.to.y());
+  return fmt::format("{}{}, {}", kind, level, place);
+}
+
 }  // namespace
 
 std::string number(double value, const char* format) {
@@ -103,6 +116,37 @@ Rows energy_table(const std::vector<LoadedRun>& runs) {
   share("by the diffusion of stress", &Budget::diffusion);
   share("by bulk viscosity", &Budget::bulk_viscosity);
   share("unaccounted for", &Budget::unaccounted);
+  return rows;
+}
+
+Rows water_table(const std::vector<LoadedRun>& runs) {
+  Rows rows = {{"Water [m2/s]"}};
+  const auto flowing = std::ranges::find_if(
+      runs, [](const LoadedRun& r) { return r.run.summary->seepage.has_value() && r.run.scene; });
+  if (flowing == runs.end()) return rows;
+  for (const LoadedRun& r : runs) rows[0].push_back(r.label);
+  const auto add = [&](std::string name, auto&& part) {
+    rows.push_back({std::move(name)});
+    for (const LoadedRun& r : runs)
+      rows.back().push_back(r.run.summary->seepage ? part(*r.run.summary->seepage) : "–");
+  };
+  const auto& faces = flowing->run.scene->water.faces;
+  const auto& through = flowing->run.summary->seepage->through_faces;
+  for (std::size_t i = 0; i < std::min(faces.size(), through.size()); ++i)
+    if (faces[i].kind != FaceKind::closed)
+      add(face_text(faces[i]), [&](const auto& seepage) {
+        return seepage.through_faces.size() == faces.size() ? number(seepage.through_faces[i], "{:.3g}")
+                                                            : "–";
+      });
+  const auto sum = [](const std::vector<double>& flows, double sign) {
+    double total = 0;
+    for (const double flow : flows) total += std::max(sign * flow, 0.);
+    return number(total, "{:.3g}");
+  };
+  add("enters", [&](const auto& seepage) { return sum(seepage.through_faces, 1); });
+  add("leaves", [&](const auto& seepage) { return sum(seepage.through_faces, -1); });
+  add("difference over what enters",
+      [](const auto& seepage) { return number(100 * seepage.imbalance, "{:.2g} %"); });
   return rows;
 }
 

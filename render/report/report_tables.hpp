@@ -16,6 +16,9 @@ using Rows = std::vector<std::vector<std::string>>;
 Rows run_table(const std::vector<LoadedRun>& runs);
 /// Shares of what gravity released; no row but the head where no run has an energy budget.
 Rows energy_table(const std::vector<LoadedRun>& runs);
+/// What flows into the soil through each face of the first run's case, and in all; no row but the head where
+/// no run has steady seepage. Runs with other faces have the sums only.
+Rows water_table(const std::vector<LoadedRun>& runs);
 /// Differences from the exact solution; no row but the head where no run has one.
 Rows error_table(const std::vector<LoadedRun>& runs);
 /// Differences from finite elements, `norms` beside the runs.

@@ -226,6 +226,19 @@ ON_THE_COMMAND_LINE = [
     ("a component is needed", "render run --field EffectiveStress", {}),
     ("logarithmic colours over zero", "render run --field PorePressure --scale logarithmic --range 0,10", {}),
     ("a scale that there is not", "render run --field PorePressure --scale log", {}),
+    ("all frames and one more", "render run --field PorePressure --time all --time last", {}),
+    ("a drawing whose lines leave a gap", "import gap.wkt", {
+        "gap.wkt": "base: LINESTRING (0 0, 8 0, 8 4)\nground: LINESTRING (0 0, 0 4, 7.8 4)\n"}),
+    ("a drawing with two names in one region", "import names.csv", {
+        "names.csv": 'layer,wkt,text\nline,"LINESTRING (0 0, 8 0, 8 4)",\nline,"LINESTRING (0 0, 0 4, 8 4)",\n'
+                     'names,POINT (1 1),clay\nnames,POINT (1 3),sand\n'}),
+    ("a drawing with a region that nothing names", "import none.wkt", {
+        "none.wkt": "base: LINESTRING (0 0, 8 0, 8 4)\nground: LINESTRING (0 0, 0 4, 8 4)\n"}),
+    ("a name where the drawing has no soil", "import none.wkt --name 9,1=sand", {}),
+    ("drawn water that falls through the air", "import falls.wkt", {
+        "falls.wkt": "sand: POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))\nwater: LINESTRING (0 5, 4 3)\n"}),
+    ("drawn water that drives no flow", "import inside.wkt", {
+        "inside.wkt": "sand: POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))\nwater: LINESTRING (1 1, 3 1)\n"}),
     ("a section without a line", "section run", {}),
     ("a section beside the soil", "section run --vertical 9", {}),
 ]

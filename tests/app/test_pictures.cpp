@@ -77,12 +77,25 @@ void draw_levee(const Workplace& place) {
           .status == 0);
 }
 
+/// The column of README, by the commands that stand there.
+void draw_collapse(const Workplace& place) {
+  for (const char* line :
+       {"run '" POROSPH_SOURCE_DIR
+        "/cases/column_collapse.toml' --quiet --threads 1 --out results/column_collapse",
+        "render results/column_collapse --field PlasticStrain --time 0.1 --time 0.3 --time last"}) {
+    CAPTURE(line);
+    REQUIRE(place.porosph(line).status == 0);
+  }
+}
+
 std::vector<DrawnPicture> draw_all(const Workplace& place) {
   draw_foundation(place);
+  draw_collapse(place);
   draw_tutorial(place);
   draw_levee(place);
   const fs::path& f = place.folder();
   return {{"foundation.png", f / "foundation/TotalStress_YY.png"},
+          {"column_collapse.png", f / "results/column_collapse/PlasticStrain.png"},
           {"tutorial_stress.png", f / "results/my_slope/EffectiveStress_YY.png"},
           {"tutorial_history.png", f / "results/my_slope_report/history.png"},
           {"tutorial_drawdown.png", f / "results/drawdown/EffectiveStress_YY.png"},

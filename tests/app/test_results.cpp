@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "tests/app/porosph.hpp"
+#include "tests/unit/render/image.hpp"
 
 using namespace porosph;
 using Catch::Matchers::Contains;
@@ -69,6 +70,17 @@ TEST_CASE("render draws every frame in one range") {
   REQUIRE(place.porosph("render shorter --field PorePressure --time all --out frames/p.png").status == 0);
   for (const char* file : {"p_000000.png", "p_000005.png"}) CHECK(is_png(place.folder() / "frames" / file));
   CHECK_FALSE(fs::exists(place.folder() / "frames/p_000006.png"));
+}
+
+TEST_CASE("render draws several times as panels of one picture, in one range") {
+  const Workplace& place = computed();
+  REQUIRE(place.porosph("render shorter --field PorePressure --out one.png").status == 0);
+  REQUIRE(place.porosph("render shorter --field PorePressure --time 0 --time last --out two.png").status ==
+          0);
+  const Image one(place.folder() / "one.png"), two(place.folder() / "two.png");
+  CHECK(std::max(two.width() - one.width(), two.height() - one.height()) > 100);
+  CHECK_THAT(place.porosph("render shorter --field PorePressure --time all --time 0").err,
+             Contains("--time all is every frame already"));
 }
 
 TEST_CASE("pictures are the same for the same input") {

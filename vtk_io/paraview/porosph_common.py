@@ -175,8 +175,11 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray
-points = vtk_to_numpy(self.GetInput().GetPoints().GetData())[:, :2]
-stress = vtk_to_numpy(self.GetInput().GetPointData().GetArray("EffectiveStress")) / 1000.0  # kPa
+particles = self.GetInput()
+while particles.IsA("vtkCompositeDataSet"):  # a run that wrote its boundary has it as a second block
+    particles = particles.GetBlock(0)
+points = vtk_to_numpy(particles.GetPoints().GetData())[:, :2]
+stress = vtk_to_numpy(particles.GetPointData().GetArray("EffectiveStress")) / 1000.0  # kPa
 cells, chosen = set(), []
 for i, cell in enumerate(map(tuple, numpy.floor(points / (3 * %(spacing)r)).astype(int))):
     if cell not in cells:

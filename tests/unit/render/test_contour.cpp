@@ -173,6 +173,22 @@ TEST_CASE("soil that has run out further than its own size is in the picture") {
   CHECK(image.find(colour_of(1, {0, 1}), image.width() - bar_space).pixels > 0);
 }
 
+TEST_CASE("the front of soil that runs out is in the picture, what was thrown off is not") {
+  const auto pixels_of_last = [](std::initializer_list<double> front) {
+    ContourPanel panel = block(20, 10, 0.1);
+    panel.scenery.soils = {{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {}}};
+    for (const double x : front) panel.particles.positions.push_back({x, 0.05});
+    panel.particles.values.assign(panel.particles.positions.size(), 0);
+    panel.particles.values.back() = 1;
+    ContourFigure figure = figure_of(panel);
+    figure.scale.range = ValueRange{0, 1};
+    const Image image = saved(figure, "front.png");
+    return image.find(colour_of(1, {0, 1}), image.width() - bar_space).pixels;
+  };
+  CHECK(pixels_of_last({2.1, 2.25, 2.4, 2.55, 2.7, 2.85, 3, 3.15, 3.3}) > 0);
+  CHECK(pixels_of_last({2.1, 2.25, 2.4, 2.55, 2.7, 2.85, 3, 3.3}) == 0);
+}
+
 TEST_CASE("more particles than quads are drawn as points without holes") {
   const ContourPanel panel = [] {
     ContourPanel many = block(1000, 600, 0.01);
