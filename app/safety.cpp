@@ -141,8 +141,8 @@ void tell(const SafetyAnswer& answer) {
     say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
 }
 
-void write(const Case& scene, const SafetyAnswer& answer, [[maybe_unused]] const std::string& command,
-           const fs::path& folder) {
+void write([[maybe_unused]] const Case& scene, const SafetyAnswer& answer,
+           [[maybe_unused]] const std::string& command, const fs::path& folder) {
   if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
   if (answer.limit_equilibrium) {
     write_slip_surfaces(folder / "slip_surfaces.csv", answer);

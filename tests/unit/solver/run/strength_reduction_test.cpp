@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/case/case_file.hpp"
+#include "solver/run/kept_state.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;
@@ -47,7 +48,6 @@ TEST_CASE("a weakened case has its cohesion and tan(phi) divided", "[safety]") {
   CHECK(weak.soils[1].strength.undrained_strength == Approx(25e3));
   CHECK(weak.soils[1].strength.growth == Approx(1250));
   CHECK(weak.soils[2].law == LawKind::elastic);
-  CHECK(weakened(scene, 0).soils[0].law == LawKind::elastic);
 }
 
 TEST_CASE("strength reduction finds the slope's factor, whatever it begins with", "[safety]") {
@@ -79,6 +79,23 @@ TEST_CASE("a factor below one is found, and none where the soil cannot fail", "[
   const StrengthReduction none = reduce_strength(strong, {.bracket = 0.1, .first_guess = 2, .most = 3});
   CHECK(none.fails_at == never);
   CHECK_FALSE(none.mechanism);
+}
+
+TEST_CASE("a simulation goes on from a kept state to the same bits", "[safety]") {
+  Case scene = slope(1);
+  scene.time.end = 1, scene.formulation.refresh_strain = never;
+  Simulation first(scene);
+  for (int k = 0; k < 60; ++k) first.advance();
+  const KeptState kept(first);
+  for (int k = 0; k < 40; ++k) first.advance();
+  Simulation second(scene);
+  kept.restore(second);
+  CHECK(second.step() == 60);
+  for (int k = 0; k < 40; ++k) second.advance();
+  CHECK(second.model().particles.position == first.model().particles.position);
+  CHECK(second.model().particles.velocity == first.model().particles.velocity);
+  Simulation other(slope(2));
+  CHECK_THROWS_AS(kept.restore(other), StateError);
 }
 
 TEST_CASE("strength reduction says what it cannot do", "[safety]") {
