@@ -23,7 +23,7 @@ constexpr double balanced = 1e-4;          // unbalanced force ratio at rest
 constexpr std::int64_t most_periods = 40;  // until a body is at rest
 constexpr std::int64_t flow_periods = 8;   // until a body that moves on is taken to flow
 constexpr double far = 5;                  // times the displacement of elastic soil
-constexpr double courant = 0.8;
+constexpr double courant = 0.6;
 constexpr int steps_between_looks = 20;
 
 /// Longest period of a body that shears on its bottom, 4 H / c_s [s].
