@@ -62,7 +62,7 @@ Case trial_of(const Case& scene) {
   c.water = at_rest_from(c.water, c.time.end);
   c.loading.adaptive_damping = true, c.loading.damping = 0, c.loading.damping_until = never;
   c.formulation.refresh_strain = never;
-  c.time = {.end = static_cast<double>(most_periods) * longest_period(scene), .courant = courant};
+  c.time = {.end = longest_rest(scene), .courant = courant};
   c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};
   c.probes.clear();
   for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
@@ -273,6 +273,8 @@ Case weakened(const Case& scene, double factor) {
     if (soil.law != LawKind::elastic) weaken(soil, factor);
   return c;
 }
+
+double longest_rest(const Case& scene) { return static_cast<double>(most_periods) * longest_period(scene); }
 
 StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options) {
   if (!scene.loading.gravity_applied)

@@ -49,6 +49,9 @@ struct StrengthReductionOptions {
 /// The case with cohesion, undrained strength and tan(phi) divided by a factor > 0.
 Case weakened(const Case& scene, double factor);
 
+/// How long a trial may take to come to rest, 40 of the body's longest periods [s].
+double longest_rest(const Case& scene);
+
 /// Divides strength by factors from a bracket that gets narrower, each trial from the rest with the largest
 /// factor so far, the first from the unstressed or K0 state at the start. Stable: the unbalanced force ratio
 /// falls below 1e-4 within 40 of the body's longest periods and before displacements exceed 5 times those at
