@@ -218,6 +218,7 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
+    ("a failure without strength reduction", "safety case.toml --method limit-equilibrium --then-run", {}),
     ("an element test of a soil that is not there", "element case.toml clay", {}),
     ("an element test that there is not", "element case.toml --test triaxial", {}),
     ("an element test to nowhere", "element case.toml --strain 0.1 --strain 0.1", {}),
