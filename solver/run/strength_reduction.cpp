@@ -66,6 +66,10 @@ Case trial_of(const Case& scene) {
   c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};
   c.probes.clear();
   for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
+  for (FootingCase& footing : c.footings) {
+    footing.force *= factor_at(footing.over_time, scene.time.end);
+    footing.over_time.clear();
+  }
   return c;
 }
 
