@@ -50,6 +50,7 @@ Case standing(const Case& scene, double factor) {
   Case c = weakened(scene, factor);
   c.water = at_rest_from(c.water, scene.time.end);
   for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
+  for (FootingCase& footing : c.footings) footing = at_rest_from(footing, scene.time.end);
   c.loading.damping = 0, c.loading.damping_until = never;
   c.reference = Reference::none, c.check = {};
   c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};

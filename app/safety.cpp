@@ -107,6 +107,9 @@ void check_water(const Case& scene, const Options& o) {
     throw UsageError(
         "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
         "--method strength-reduction does");
+  if (!scene.footings.empty() && o.by_limit_equilibrium())
+    throw UsageError(
+        "safety: limit equilibrium knows no footing ([[footing]]); --method strength-reduction does");
   if (!scene.water.flows()) return;
   if (!o.by_particles())
     throw UsageError(

@@ -66,6 +66,7 @@ Case trial_of(const Case& scene) {
   c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};
   c.probes.clear();
   for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
+  for (FootingCase& footing : c.footings) footing = at_rest_from(footing, scene.time.end);
   return c;
 }
 
@@ -281,6 +282,9 @@ StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOpti
     throw std::runtime_error("strength reduction: loading.gravity_applied = false: nothing drives the soil");
   if (std::ranges::none_of(scene.soils, [](const SoilCase& soil) { return soil.law != LawKind::elastic; }))
     throw std::runtime_error("strength reduction: no soil yields: give one the key 'law' and a strength");
+  if (std::ranges::any_of(scene.footings, [](const FootingCase& f) { return f.settlement < never; }))
+    throw std::runtime_error(
+        "strength reduction: a footing that is driven by its settlement cannot fail: give it a force");
   return Search(scene, options).run();
 }
 

@@ -102,6 +102,10 @@ TEST_CASE("strength reduction says what it cannot do", "[safety]") {
   Case elastic = slope(1);
   elastic.soils[0].law = LawKind::elastic;
   CHECK_THROWS_WITH(reduce_strength(elastic, {}), Catch::Contains("no soil yields"));
+  Case pushed = slope(1);
+  pushed.footings.push_back(
+      {.name = "plate", .from = {2, 10}, .to = {6, 10}, .settlement = 0.1, .over_time = {}});
+  CHECK_THROWS_WITH(reduce_strength(pushed, {}), Catch::Contains("driven by its settlement"));
   Case weightless = slope(1);
   weightless.loading.gravity_applied = false;
   CHECK_THROWS_WITH(reduce_strength(weightless, {}), Catch::Contains("gravity_applied"));
