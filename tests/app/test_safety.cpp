@@ -146,7 +146,7 @@ TEST_CASE("a slope whose factor is known is let fail") {
   };
   CHECK(summary("rest")["status"] == "equilibrium");
   const auto sunk = [&](const std::string& run) {
-    return -summary(run)["probes"]["crest"]["Displacement_Y"].get<double>();
+    return -summary(run)["probes"]["crest"]["values"]["Displacement_Y"].get<double>();
   };
   CHECK(sunk("rest") < 0.05);
   CHECK(sunk("runout") > 1);
