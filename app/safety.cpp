@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "app/interruption.hpp"
+#include "app/let_fail.hpp"
 #include "app/results.hpp"
 #include "app/say.hpp"
 #include "app/shipped_cases.hpp"
@@ -39,6 +40,7 @@ struct Options {
   double bracket = 0.01;
   int jobs = 1;
   bool quiet = false, force = false;
+  std::optional<double> then_run;  // factor; 0: the smallest at which it fails
 
   bool by_particles() const { return method != "limit-equilibrium"; }
   bool by_limit_equilibrium() const { return method != "strength-reduction"; }
@@ -58,8 +60,11 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
       "replaces a setting of the case; may be given again");
   add_jobs(options, o.jobs, "factors tried at a time");
-  options.add_options()("force", "replace another case's results")("quiet",
-                                                                   "say nothing unless something is wrong");
+  options.add_options()(
+      "then-run", po::value<double>()->value_name("=FACTOR")->implicit_value(0, ""),
+      "let it fail with its strength divided by this, or by the smallest factor at which it fails, and "
+      "show the runout")("force", "replace another case's results")("quiet",
+                                                                    "say nothing unless something is wrong");
   po::positional_options_description positional;
   positional.add("case", 1);
   po::variables_map values;
@@ -77,6 +82,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
     throw UsageError(fmt::format("--bracket = {}: must be from 0.0001 to 1", o.bracket));
   check_jobs(o.jobs);
   o.quiet = values.count("quiet") > 0, o.force = values.count("force") > 0;
+  if (values.count("then-run") > 0) o.then_run = values["then-run"].as<double>();
+  if (o.then_run && !o.by_particles())
+    throw UsageError("--then-run needs strength reduction: --method both or strength-reduction");
   return o;
 }
 
@@ -99,6 +107,9 @@ void check_water(const Case& scene, const Options& o) {
     throw UsageError(
         "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
         "--method strength-reduction does");
+  if (!scene.footings.empty() && o.by_limit_equilibrium())
+    throw UsageError(
+        "safety: limit equilibrium knows no footing ([[footing]]); --method strength-reduction does");
   if (!scene.water.flows()) return;
   if (!o.by_particles())
     throw UsageError(
@@ -141,8 +152,8 @@ void tell(const SafetyAnswer& answer) {
     say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
 }
 
-void write(const Case& scene, const SafetyAnswer& answer, [[maybe_unused]] const std::string& command,
-           const fs::path& folder) {
+void write([[maybe_unused]] const Case& scene, const SafetyAnswer& answer,
+           [[maybe_unused]] const std::string& command, const fs::path& folder) {
   if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
   if (answer.limit_equilibrium) {
     write_slip_surfaces(folder / "slip_surfaces.csv", answer);
@@ -196,7 +207,7 @@ int safety_command(const Arguments& arguments) {
     say(stdout, folder.string() + "\n");
   }
   if (!apart.empty()) warn({apart});
-  return Exit::done;
+  return o->then_run ? let_fail(scene, *answer.particles, *o->then_run, folder, o->quiet) : Exit::done;
 }
 
 }  // namespace porosph::app

@@ -5,7 +5,6 @@
 #include "solver/case/shapes.hpp"
 
 namespace porosph {
-namespace {
 
 double factor_at(const std::vector<Point>& over_time, double time) {
   if (over_time.empty()) return 1;
@@ -16,11 +15,9 @@ double factor_at(const std::vector<Point>& over_time, double time) {
   return before.y() + (next->y() - before.y()) * (time - before.x()) / (next->x() - before.x());
 }
 
-}  // namespace
-
-Vec2 outward_normal(const Case& scene, const LoadCase& load) {
-  const Vec2 way = load.to - load.from, normal = Vec2(way.y(), -way.x()).normalized();
-  const Vec2 beside = (load.from + load.to) / 2 + 1e-3 * scene.particles.spacing * normal;
+Vec2 outward_normal(const Case& scene, const Point& from, const Point& to) {
+  const Vec2 way = to - from, normal = Vec2(way.y(), -way.x()).normalized();
+  const Vec2 beside = (from + to) / 2 + 1e-3 * scene.particles.spacing * normal;
   const bool in_soil =
       std::ranges::any_of(scene.soils, [&](const SoilCase& s) { return distance(beside, s) == 0; });
   return in_soil ? Vec2(-normal) : normal;
@@ -32,6 +29,13 @@ LoadCase at_rest_from(LoadCase load, double time) {
   load.traction *= factor, load.traction_to *= factor;
   load.over_time.clear();
   return load;
+}
+
+FootingCase at_rest_from(FootingCase footing, double time) {
+  double& driven = footing.force < never ? footing.force : footing.settlement;
+  driven *= factor_at(footing.over_time, time);
+  footing.over_time.clear();
+  return footing;
 }
 
 Vec2 Traction::traction(const Vec2& place, const Vec2& normal, double time) const {

@@ -17,10 +17,15 @@ class Traction final : public Load {
   LoadCase load_;
 };
 
-/// The unit normal of the load's stretch that points out of the soil.
-Vec2 outward_normal(const Case& scene, const LoadCase& load);
+/// The unit normal of a stretch of the outline that points out of the soil.
+Vec2 outward_normal(const Case& scene, const Point& from, const Point& to);
+
+/// Linear between points (time, factor), constant before and after; 1 where there are none.
+double factor_at(const std::vector<Point>& over_time, double time);
 
 /// The load as it stands at a time [s], from then on.
 LoadCase at_rest_from(LoadCase load, double time);
+/// The footing under the force, or at the settlement, that it has at a time [s].
+FootingCase at_rest_from(FootingCase footing, double time);
 
 }  // namespace porosph

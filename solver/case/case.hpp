@@ -135,6 +135,17 @@ struct LoadCase {
   std::vector<Point> over_time;  ///< (time, factor of all this), linear between; empty: 1 [s, -]
 };
 
+/// A rigid plate on a straight free stretch of the outline. It moves across the stretch without turning, and
+/// the soil moves with it; it is driven either by a force or by its settlement.
+struct FootingCase {
+  std::string name;
+  Point from = Point::Zero(), to = Point::Zero();  ///< ends of the stretch [m]
+  bool rough = true;             ///< the soil does not move along it; false: it does so freely
+  double force = never;          ///< into the soil, per metre of thickness [N/m]; never: not given
+  double settlement = never;     ///< into the soil [m]; never: not given
+  std::vector<Point> over_time;  ///< (time, factor of this), linear between; empty: 1 [s, -]
+};
+
 /// The momentum equation's discrete form.
 enum class Motion {
   conventional,  ///< eq. (17): pore pressure summed as p_a + p_b
@@ -246,6 +257,7 @@ struct Case {
   WaterCase water;
   std::vector<BoundaryCase> boundaries;
   std::vector<LoadCase> loads;
+  std::vector<FootingCase> footings;
   FormulationCase formulation;
   LoadingCase loading;
   TimeCase time;

@@ -221,6 +221,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   check_names(c.soils, "soil", issues);
   check_names(c.probes, "probe", issues);
   check_names(c.loads, "load", issues);
+  check_names(c.footings, "footing", issues);
   const double end = latest_end(c);
   const double frames = c.output.interval > 0 ? end / c.output.interval : 0;
   if (frames > most_frames)
@@ -281,6 +282,8 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
   const Issues of_loads = check_loads(c);
   issues.insert(issues.end(), of_loads.begin(), of_loads.end());
+  const Issues of_footings = check_footings(c);
+  issues.insert(issues.end(), of_footings.begin(), of_footings.end());
   if (c.reference != Reference::none && of_boundaries.empty()) {
     const std::string fault = column_fault(c);
     if (!fault.empty()) issues.push_back({"reference", fault});

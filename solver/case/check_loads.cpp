@@ -19,13 +19,13 @@ double common_length(const Point& a, const Point& b, const Point& c, const Point
   return std::max(0.0, std::min(to, length) - std::max(from, 0.0));
 }
 
-std::string place_fault(const Case& c, const LoadCase& load) {
+/// `what` presses there: "a load".
+std::string place_fault(const Case& c, const Point& from, const Point& to, std::string_view what) {
   const double spacing = c.particles.spacing, tolerance = 1e-3 * spacing;
-  const double length = (load.to - load.from).norm();
+  const double length = (to - from).norm();
   if (length < spacing) return fmt::format("is shorter than the spacing of {} m", spacing);
   double covered = 0;
-  for (const OutlineEdge& e : outline_edges(c.soils))
-    covered += common_length(load.from, load.to, e.a, e.b, tolerance);
+  for (const OutlineEdge& e : outline_edges(c.soils)) covered += common_length(from, to, e.a, e.b, tolerance);
   if (covered < tolerance) return "does not lie on the outline of any soil";
   if (covered > length + tolerance) return "lies between two soils: it must be on a free surface";
   if (covered < length - tolerance)
@@ -34,15 +34,15 @@ std::string place_fault(const Case& c, const LoadCase& load) {
         length);
   for (std::size_t i = 0; i < c.boundaries.size(); ++i)
     for (const Point& wall_end : {c.boundaries[i].from, c.boundaries[i].to})
-      for (const Point& end : {load.from, load.to})
+      for (const Point& end : {from, to})
         if ((wall_end - end).norm() < 2 * c.smoothing_length())
           return fmt::format(
-              "meets the end of boundary[{}] at ({}, {}): a wall beside a load must extend beyond the soil, "
+              "meets the end of boundary[{}] at ({}, {}): a wall beside {} must extend beyond the soil, "
               "by {} m or more, "
               "to hold the particles on the surface",
-              i, wall_end.x(), wall_end.y(), 2 * c.smoothing_length());
+              i, wall_end.x(), wall_end.y(), what, 2 * c.smoothing_length());
   for (std::size_t i = 0; i < c.boundaries.size(); ++i)
-    if (common_length(load.from, load.to, c.boundaries[i].from, c.boundaries[i].to, tolerance) > tolerance)
+    if (common_length(from, to, c.boundaries[i].from, c.boundaries[i].to, tolerance) > tolerance)
       return fmt::format("lies on boundary[{}]: it must be on a free surface", i);
   return "";
 }
@@ -61,7 +61,35 @@ std::vector<CaseIssue> check_loads(const Case& c) {
     if (is_nothing(c.loads[i]))
       issues.push_back(
           {key, fmt::format("load '{}' has neither a pressure nor a traction", c.loads[i].name)});
-    if (const std::string fault = place_fault(c, c.loads[i]); !fault.empty()) issues.push_back({key, fault});
+    if (const std::string fault = place_fault(c, c.loads[i].from, c.loads[i].to, "a load"); !fault.empty())
+      issues.push_back({key, fault});
+  }
+  return issues;
+}
+
+std::vector<CaseIssue> check_footings(const Case& c) {
+  std::vector<CaseIssue> issues;
+  for (std::size_t i = 0; i < c.footings.size(); ++i) {
+    const FootingCase& footing = c.footings[i];
+    const std::string key = fmt::format("footing[{}]", i);
+    const bool settles = footing.settlement < never;
+    if (settles == (footing.force < never))
+      issues.push_back(
+          {key, fmt::format("footing '{}' needs one of 'force' and 'settlement'", footing.name)});
+    if (settles && (footing.over_time.empty() || footing.over_time.front() != Point::Zero()))
+      issues.push_back(
+          {key + ".over_time",
+           "must begin with [0, 0]: a footing that is driven by its settlement has none at first"});
+    for (const ProbeCase& probe : c.probes)
+      if (probe.name == footing.name)
+        issues.push_back({key + ".name", fmt::format("'{}' is the name of a probe too", footing.name)});
+    if (const std::string fault = place_fault(c, footing.from, footing.to, "a footing"); !fault.empty())
+      issues.push_back({key, fault});
+    if (c.formulation.motion != Motion::consistent)
+      issues.push_back({key, "a footing needs formulation.motion = \"consistent\""});
+    if (!c.stages.empty() || c.plan) issues.push_back({key, "a footing does not go with stages"});
+    if (c.water.mode == WaterMode::coupled)
+      issues.push_back({key, "a footing does not go with water.mode = \"coupled\""});
   }
   return issues;
 }

@@ -72,6 +72,11 @@ void declare(Fields& f, Case& c) {
           "A force on the soil's surface: on a straight stretch of a free outline, as it is at the start, "
           "linear from one end to the other."),
       c.loads);
+  f.tables(
+      Key("footing", "",
+          "A rigid plate on a straight stretch of a free outline. It moves straight into the soil, without "
+          "turning, by its `force` or by its `settlement`; the soil sticks to it."),
+      c.footings);
   f.set_defaults([&] {
     if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
   });
@@ -155,6 +160,23 @@ void declare(Fields& f, LoadCase& c) {
   f.pairs(Key("over_time", "s, -",
               "Factor of the load over time, [[t, factor], ...]: linear between these times and constant "
               "before and after.")
+              .otherwise("1 at all times"),
+          c.over_time);
+}
+
+void declare(Fields& f, FootingCase& c) {
+  f.name(Key("name", "", "Name of the footing, unlike any other.").required(), c.name);
+  f.point(Key("from", "m", "One end of the stretch.").required(), c.from);
+  f.point(Key("to", "m", "The other end.").required(), c.to);
+  f.flag(Key("rough", "", "`false`: the soil slides along the footing without friction."), c.rough);
+  f.number(
+      Key("force", "N/m", "Force that presses it into the soil, per metre of thickness.").otherwise("none"),
+      c.force, between(-stiffest, stiffest));
+  f.number(Key("settlement", "m", "Way into the soil that it is driven by.").otherwise("none"), c.settlement,
+           between(-farthest, farthest));
+  f.pairs(Key("over_time", "s, -",
+              "Factor of force or settlement over time, [[t, factor], ...]: linear between these times and "
+              "constant before and after.")
               .otherwise("1 at all times"),
           c.over_time);
 }

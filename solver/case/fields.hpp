@@ -60,6 +60,7 @@ void declare(Fields&, HydraulicFaceCase&);
 void declare(Fields&, WaterStretch&);
 void declare(Fields&, BoundaryCase&);
 void declare(Fields&, LoadCase&);
+void declare(Fields&, FootingCase&);
 void declare(Fields&, FormulationCase&);
 void declare(Fields&, LoadingCase&);
 void declare(Fields&, TimeCase&);

@@ -36,6 +36,7 @@ Case moved(Case scene, const Point& by) {
   for (HydraulicFaceCase& face : scene.water.faces) face.from += by, face.to += by, face.level += by.y();
   for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
   for (LoadCase& load : scene.loads) load.from += by, load.to += by;
+  for (FootingCase& footing : scene.footings) footing.from += by, footing.to += by;
   for (ProbeCase& probe : scene.probes) probe.position += by;
   return scene;
 }

@@ -9,8 +9,8 @@ namespace porosph {
 std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start) {
   const FlowingSoil* flow = simulation.dynamics().flow();
   const LoadingCase& loading = simulation.scene().loading;
-  if (flow == nullptr || loading.adaptive_damping || loading.damping > 0 ||
-      std::ranges::any_of(simulation.model().soils, &Soil::stiffness_varies))
+  if (flow == nullptr || !simulation.scene().footings.empty() || loading.adaptive_damping ||
+      loading.damping > 0 || std::ranges::any_of(simulation.model().soils, &Soil::stiffness_varies))
     return std::nullopt;
   const Simulation::Energy now = simulation.energy();
   const FlowingSoil::Work& work = flow->work();

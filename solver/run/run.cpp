@@ -26,6 +26,8 @@ class Equilibrium {
     if (!s.scene().water.level_over_time.empty()) changes_end_ = s.scene().water.level_over_time.back().x();
     for (const LoadCase& load : s.scene().loads)
       if (!load.over_time.empty()) changes_end_ = std::max(changes_end_, load.over_time.back().x());
+    for (const FootingCase& footing : s.scene().footings)
+      if (!footing.over_time.empty()) changes_end_ = std::max(changes_end_, footing.over_time.back().x());
   }
 
   /// Keeps the last time out of balance, and the zigzag of displacements, in `progress`.
@@ -52,13 +54,16 @@ class Equilibrium {
   double limit_, needed_ = 0, changes_end_ = 0;
 };
 
-std::vector<double> history_row(const Simulation& s) {
+std::vector<double> history_row(Simulation& s) {
+  s.accelerations();  // the footings' forces at this instant
   std::vector<double> row = {s.time()};
   if (const Consolidation* c = s.consolidation()) row.push_back(c->drained());
   for (const Probe& probe : s.probes()) {
     const std::vector<double> values = probe.read(s.model().particles).values();
     row.insert(row.end(), values.begin(), values.end());
   }
+  for (const Footing& footing : s.footings())
+    row.insert(row.end(), {footing.force(), footing.shear(), footing.settlement(s.model().particles)});
   return row;
 }
 
@@ -74,13 +79,13 @@ double energy_growth(const Simulation::Energy& now, const RunProgress& progress)
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
-/// level that moves or presses on a face, and a load that changes: there energy tells nothing.
+/// level that moves or presses on a face, a load that changes, and a footing: there energy tells nothing.
 bool keeps_energy(const Simulation& s) {
   const Case& scene = s.scene();
   const bool loads_change =
       std::ranges::any_of(scene.loads, [](const LoadCase& load) { return !load.over_time.empty(); });
-  return !loads_change && scene.water.level_over_time.empty() && !scene.water.flows() &&
-         s.model().loads.empty() &&
+  return !loads_change && scene.footings.empty() && scene.water.level_over_time.empty() &&
+         !scene.water.flows() && s.model().loads.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 
@@ -131,6 +136,9 @@ std::vector<std::string> history_columns(const Simulation& simulation) {
   if (simulation.consolidation() != nullptr) columns.push_back("water.drained");
   for (const Probe& probe : simulation.probes())
     for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
+  for (const Footing& footing : simulation.footings())
+    for (const char* quantity : {"Force", "Shear", "Settlement"})
+      columns.push_back(footing.name() + "." + quantity);
   return columns;
 }
 

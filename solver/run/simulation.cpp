@@ -10,7 +10,6 @@
 #include "solver/case/shapes.hpp"
 #include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
-#include "solver/run/leapfrog.hpp"
 #include "solver/run/monitor/energy.hpp"
 #include "solver/space/parallel.hpp"
 
@@ -93,6 +92,7 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
       surface_loads_(surface_loads(moved(scene, -model_.origin), model_)),
+      footings_(make_footings(moved(scene, -model_.origin), model_)),
       accelerations_(model_.particles.size(), Vec2::Zero()) {
   if (!scene.stages.empty())
     throw std::runtime_error("the case has stages ([[stage]]), which porosph run and porosph check follow");
@@ -186,6 +186,8 @@ std::span<const Vec2> Simulation::accelerations() {
     dynamics_->accelerations(accelerations_);
     add_loads(model_.loads, model_.particles, time(), accelerations_);
     add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
+    for (Footing& footing : footings_)
+      footing.hold(model_.particles, next_kick(), clock_.dt, time_of(clock_.step + 1), accelerations_);
     accelerations_valid_ = true;
   }
   return accelerations_;
@@ -215,10 +217,14 @@ void Simulation::advance() {
   if (measure) relaxation_.measure(model_.particles, before, accelerations(), clock_.dt);
 }
 
+Kick Simulation::next_kick() const {
+  return (clock_.step == 0 ? first_kick : full_kick)(damping(), clock_.dt);
+}
+
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
 void Simulation::drift() {
   Particles& p = model_.particles;
-  const Kick kick = (clock_.step == 0 ? first_kick : full_kick)(damping(), clock_.dt);
+  const Kick kick = next_kick();
   const bool wet = model_.pore_water->acts(model_.water);
   const double then = time_of(clock_.step + 1);
   model_.water.set_time(then);
@@ -313,7 +319,10 @@ double Simulation::largest_displacement() const {
 }
 
 double Simulation::unbalanced_force_ratio() {
-  return porosph::unbalanced_force_ratio(model_, accelerations(), load_squares(surface_loads_, time()));
+  const auto a = accelerations();
+  double squares = load_squares(surface_loads_, time());
+  for (const Footing& footing : footings_) squares += footing.squares();
+  return porosph::unbalanced_force_ratio(model_, a, squares);
 }
 
 Simulation::Energy Simulation::energy() {

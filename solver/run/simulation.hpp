@@ -8,7 +8,9 @@
 
 #include "solver/model/model.hpp"
 #include "solver/run/consolidation.hpp"
+#include "solver/run/footings.hpp"
 #include "solver/run/hand_over.hpp"
+#include "solver/run/leapfrog.hpp"
 #include "solver/run/monitor/instability.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
@@ -52,6 +54,7 @@ class Simulation {
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
+  const std::vector<Footing>& footings() const { return footings_; }
   const Dynamics& dynamics() const { return *dynamics_; }
   const Consolidation* consolidation() const { return consolidation_.get(); }  ///< null unless coupled
 
@@ -93,6 +96,7 @@ class Simulation {
   double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
 
  private:
+  Kick next_kick() const;
   void drift();
   void couple();
   void advance_flow();
@@ -124,6 +128,7 @@ class Simulation {
   std::vector<Probe> probes_;
   Clock clock_;
   std::vector<LoadedParticles> surface_loads_;
+  std::vector<Footing> footings_;
   std::vector<Vec2> accelerations_;
   bool accelerations_valid_ = false;
   bool taken_over_ = false;  ///< began with the state of another

@@ -7,18 +7,22 @@
 #include <exception>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
 #include "solver/boundary/traction.hpp"
+#include "solver/run/kept_state.hpp"
+#include "solver/run/monitor/energy.hpp"
 #include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
 
-constexpr double balanced = 1e-4;    // unbalanced force ratio at rest
-constexpr double most_periods = 40;  // until a body is at rest
-constexpr double far = 5;            // times the displacement at rest
+constexpr double balanced = 1e-4;          // unbalanced force ratio at rest
+constexpr std::int64_t most_periods = 40;  // until a body is at rest
+constexpr std::int64_t flow_periods = 8;   // until a body that moves on is taken to flow
+constexpr double far = 5;                  // times the displacement of elastic soil
 constexpr double courant = 0.6;
 constexpr int steps_between_looks = 20;
 
@@ -42,11 +46,7 @@ void weaken(SoilCase& soil, double factor) {
   StrengthCase& s = soil.strength;
   const double sine = 3 * soil.cam_clay.ratio / (6 + soil.cam_clay.ratio);
   const double weaker = std::sin(std::atan(std::tan(std::asin(sine)) / factor));
-  if (factor > 0) soil.cam_clay.ratio = 6 * weaker / (3 - weaker);
-  if (factor == 0) {
-    soil.law = LawKind::elastic;
-    return;
-  }
+  soil.cam_clay.ratio = 6 * weaker / (3 - weaker);
   for (double* strength :
        {&s.cohesion, &s.residual_cohesion, &s.undrained_strength, &s.growth, &s.tensile_strength})
     *strength /= factor;
@@ -55,10 +55,24 @@ void weaken(SoilCase& soil, double factor) {
   s.dilation_angle = std::min(s.dilation_angle, s.friction_angle);
 }
 
-double largest_displacement(const Particles& p) {
-  double squared = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) squared = std::max(squared, p.displacement(i).squaredNorm());
-  return std::sqrt(squared);
+/// The case as trials compute it: reference frozen (no displacement here is more than a hundredth of the
+/// body), adaptive damping, Courant number 0.6, water and loads as they stand at the case's end.
+Case trial_of(const Case& scene) {
+  Case c = scene;
+  c.water = at_rest_from(c.water, c.time.end);
+  c.loading.adaptive_damping = true, c.loading.damping = 0, c.loading.damping_until = never;
+  c.formulation.refresh_strain = never;
+  c.time = {.end = longest_rest(scene), .courant = courant};
+  c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};
+  c.probes.clear();
+  for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
+  for (FootingCase& footing : c.footings) footing = at_rest_from(footing, scene.time.end);
+  return c;
+}
+
+Case elastic(Case scene) {
+  for (SoilCase& soil : scene.soils) soil.law = LawKind::elastic;
+  return scene;
 }
 
 struct FinishedTrial {
@@ -66,38 +80,59 @@ struct FinishedTrial {
   std::unique_ptr<Simulation> simulation;
 };
 
-FinishedTrial try_factor(const Case& scene, double factor, double most_displacement,
-                         const std::function<bool()>& interrupted) {
-  auto simulation = std::make_unique<Simulation>(weakened(scene, factor));
+/// Whether a body still moves as fast as before: kinetic energies at equal intervals since a trial began. On
+/// its way to rest a body loses them; one that flows has the same in the last quarter as in the one before.
+bool keeps_moving(std::span<const double> energies) {
+  constexpr double as_fast = 0.95;
+  const std::size_t quarter = energies.size() / 4;
+  const auto last = energies.last(quarter), before = energies.first(energies.size() - quarter).last(quarter);
+  return std::accumulate(last.begin(), last.end(), 0.0) >=
+         as_fast * std::accumulate(before.begin(), before.end(), 0.0);
+}
+
+/// Advances until it is known how the trial ends, beginning with the state that the simulation is in.
+StrengthTrial advance_to_end(Simulation& simulation, double factor, double at_rest,
+                             const std::function<bool()>& interrupted) {
   StrengthTrial t{.factor = factor, .end = TrialEnd::not_at_rest};
-  while (simulation->step() < simulation->last_step()) {
-    simulation->advance();
-    if (simulation->instability()) {
+  const std::int64_t begun = simulation.step(), most = simulation.last_step();
+  const double moved_before = simulation.largest_displacement();
+  std::vector<double> energies;
+  while (simulation.step() < begun + most) {
+    simulation.advance();
+    if (simulation.instability()) {
       t.end = TrialEnd::broke_down;
       break;
     }
-    if (simulation->step() % steps_between_looks != 0) continue;
+    const std::int64_t steps = simulation.step() - begun;
+    if (steps % steps_between_looks != 0) continue;
     if (interrupted && interrupted()) break;
-    t.displacement = largest_displacement(simulation->model().particles);
-    if (t.displacement > most_displacement) {
+    const double moved = simulation.largest_displacement();
+    const Particles& p = simulation.model().particles;
+    energies.push_back(kinetic_energy(p, p.velocity));
+    if (moved > far * at_rest) {
       t.end = TrialEnd::moved_far;
       break;
     }
-    t.unbalanced = simulation->unbalanced_force_ratio();
-    if (t.unbalanced < balanced) {
+    if (simulation.unbalanced_force_ratio() < balanced) {
       t.end = TrialEnd::at_rest;
       break;
     }
+    if (moved - moved_before > at_rest && steps > most * flow_periods / most_periods &&
+        keeps_moving(energies)) {
+      t.end = TrialEnd::flows;
+      break;
+    }
   }
-  t.displacement = largest_displacement(simulation->model().particles);
-  t.unbalanced = simulation->unbalanced_force_ratio();
-  t.steps = simulation->step();
-  return {t, std::move(simulation)};
+  t.displacement = simulation.largest_displacement();
+  t.unbalanced = simulation.unbalanced_force_ratio();
+  t.steps = simulation.step() - begun;
+  return t;
 }
 
 class Search {
  public:
-  Search(const Case& scene, const StrengthReductionOptions& options) : scene_(scene), options_(options) {}
+  Search(const Case& scene, const StrengthReductionOptions& options)
+      : trial_(trial_of(scene)), options_(options) {}
 
   StrengthReduction run() {
     measure_rest();
@@ -111,27 +146,34 @@ class Search {
  private:
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
-  /// What the body does without division: the measure of "far". Elastic where it fails even so.
+  std::shared_ptr<const KeptState> rest_below(double factor) {
+    const std::scoped_lock lock(mutex_);
+    return rest_.factor < factor ? rest_.state : nullptr;
+  }
+
+  /// From the rest with the largest factor below this one, or else from the case's start.
+  FinishedTrial try_factor(double factor) {
+    auto simulation = std::make_unique<Simulation>(factor == 0 ? elastic(trial_) : trial_);
+    if (const auto rest = rest_below(factor)) rest->restore(*simulation);
+    if (factor > 0) simulation->reduce_strength(factor);
+    const StrengthTrial t =
+        advance_to_end(*simulation, factor, factor > 0 ? result_.at_rest : never, options_.interrupted);
+    return {t, std::move(simulation)};
+  }
+
+  /// What elastic soil does: the measure of "far".
   void measure_rest() {
-    double height = never;
-    for (const SoilCase& soil : scene_.soils)
-      for (const Point& p : soil.polygon) height = std::min(height, p.y());
-    FinishedTrial elastic, whole;
-    in_parallel({[&] { elastic = try_factor(scene_, 0, never, options_.interrupted); },
-                 [&] { whole = try_factor(scene_, 1, never, options_.interrupted); }});
+    StrengthTrial t;
+    in_parallel({[&] { t = try_factor(0).trial; }});
     if (stopped()) return;
-    if (!elastic.trial.stable())
+    if (!t.stable())
       throw std::runtime_error("strength reduction: the body does not come to rest even where it is elastic");
-    const bool rests = whole.trial.stable() && whole.trial.displacement <= far * elastic.trial.displacement;
-    if (!rests && whole.trial.stable()) whole.trial.end = TrialEnd::moved_far;
-    result_.at_rest = rests ? whole.trial.displacement : elastic.trial.displacement;
-    keep(std::move(whole));
+    result_.at_rest = t.displacement;
   }
 
   std::vector<double> first_factors() const {
     const double guess = std::clamp(options_.first_guess, options_.least, options_.most);
-    const std::vector<double> around = wanted({0.97 * guess, 1.03 * guess});
-    return around.empty() ? next_factors() : around;  // the trial at 1 may have shown the guess to be wrong
+    return {0.97 * guess, 1.03 * guess};
   }
 
   /// As many as there are jobs, between the bracket's ends or beyond its open one; none when it is narrow.
@@ -140,9 +182,9 @@ class Search {
     std::vector<double> next;
     const int jobs = std::max(1, options_.jobs);
     if (high == never) {
-      for (int i = 1; i <= jobs; ++i) next.push_back(low * std::pow(1.1, i));
+      for (int i = 1; i <= jobs; ++i) next.push_back(low * std::pow(1.05, i));
     } else if (low == 0) {
-      for (int i = 1; i <= jobs; ++i) next.push_back(high * std::pow(0.9, i));
+      for (int i = 1; i <= jobs; ++i) next.push_back(high * std::pow(0.95, i));
     } else if (high - low > options_.bracket * (1 + 1e-9)) {
       // No closer together than the bracket that is asked for.
       const int parts =
@@ -162,9 +204,7 @@ class Search {
 
   void try_all(const std::vector<double>& factors) {
     std::vector<std::function<void()>> work;
-    for (const double factor : factors)
-      work.push_back(
-          [this, factor] { keep(try_factor(scene_, factor, far * result_.at_rest, options_.interrupted)); });
+    for (const double factor : factors) work.push_back([this, factor] { keep(try_factor(factor)); });
     in_parallel(work);
   }
 
@@ -172,6 +212,8 @@ class Search {
     if (stopped()) return;
     const std::scoped_lock lock(mutex_);
     const StrengthTrial& t = finished.trial;
+    if (t.stable() && t.factor > result_.stable_at && t.factor < result_.fails_at)
+      rest_ = {t.factor, std::make_shared<KeptState>(*finished.simulation)};
     if (!t.stable() && t.factor < result_.fails_at) {
       result_.fails_at = t.factor;
       result_.mechanism = std::move(finished.simulation);
@@ -214,9 +256,13 @@ class Search {
     if (failure) std::rethrow_exception(failure);
   }
 
-  const Case& scene_;
+  const Case trial_;
   const StrengthReductionOptions& options_;
   StrengthReduction result_;
+  struct {
+    double factor = 0;
+    std::shared_ptr<const KeptState> state;
+  } rest_;  ///< that with the largest factor; none in the beginning
   std::mutex mutex_, queue_;
 };
 
@@ -226,21 +272,19 @@ Case weakened(const Case& scene, double factor) {
   Case c = scene;
   for (SoilCase& soil : c.soils)
     if (soil.law != LawKind::elastic) weaken(soil, factor);
-  c.water = at_rest_from(c.water, c.time.end);
-  c.loading.adaptive_damping = true, c.loading.damping = 0, c.loading.damping_until = never;
-  c.formulation.refresh_strain = never;
-  c.time = {.end = most_periods * longest_period(scene), .courant = courant};
-  c.stop = {.unbalanced_force_ratio = 0, .on_separation = false};
-  c.probes.clear();
-  for (LoadCase& load : c.loads) load = at_rest_from(load, scene.time.end);
   return c;
 }
+
+double longest_rest(const Case& scene) { return static_cast<double>(most_periods) * longest_period(scene); }
 
 StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options) {
   if (!scene.loading.gravity_applied)
     throw std::runtime_error("strength reduction: loading.gravity_applied = false: nothing drives the soil");
   if (std::ranges::none_of(scene.soils, [](const SoilCase& soil) { return soil.law != LawKind::elastic; }))
     throw std::runtime_error("strength reduction: no soil yields: give one the key 'law' and a strength");
+  if (std::ranges::any_of(scene.footings, [](const FootingCase& f) { return f.settlement < never; }))
+    throw std::runtime_error(
+        "strength reduction: a footing that is driven by its settlement cannot fail: give it a force");
   return Search(scene, options).run();
 }
 

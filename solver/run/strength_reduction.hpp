@@ -15,6 +15,7 @@ namespace porosph {
 enum class TrialEnd {
   at_rest,      ///< forces are in balance: stable
   moved_far,    ///< displacements beyond what a body at rest has: failed
+  flows,        ///< moves on and on, as fast as before: failed
   not_at_rest,  ///< in motion after the longest time: failed
   broke_down,   ///< the state is no longer one of soil: failed
 };
@@ -29,10 +30,10 @@ struct StrengthTrial {
 };
 
 struct StrengthReduction {
-  double stable_at = 0;     ///< largest factor at which the body comes to rest; 0: none was found
-  double fails_at = never;  ///< smallest at which it does not; infinite: none was found
-  double at_rest = 0;       ///< largest displacement at rest, without division or, if that fails, elastic [m]
-  std::vector<StrengthTrial> trials;      ///< by their factor
+  double stable_at = 0;               ///< largest factor at which the body comes to rest; 0: none was found
+  double fails_at = never;            ///< smallest at which it does not; infinite: none was found
+  double at_rest = 0;                 ///< largest displacement of elastic soil at rest [m]
+  std::vector<StrengthTrial> trials;  ///< by their factor
   std::unique_ptr<Simulation> mechanism;  ///< the trial at `fails_at`, as it ended; empty if there is none
 };
 
@@ -45,16 +46,17 @@ struct StrengthReductionOptions {
   std::function<bool()> interrupted = {};                   ///< true ends the search
 };
 
-/// The case with cohesion, undrained strength and tan(phi) divided by a factor, and how it is computed for
-/// this purpose: reference frozen (no displacement here is more than a hundredth of the body), adaptive
-/// damping, Courant number 0.6, water and loads as they stand at the case's end. factor = 0: elastic.
+/// The case with cohesion, undrained strength and tan(phi) divided by a factor > 0.
 Case weakened(const Case& scene, double factor);
 
-/// Divides strength by factors from a bracket that gets narrower, each trial from the unstressed or K0 state
-/// at the start. Stable: the unbalanced force ratio falls below 1e-4 within 40 of the body's longest periods
-/// and before displacements exceed 5 times those at rest (the ratio alone would take a failed slope for
-/// stable that has flowed to a new rest). Throws std::runtime_error where the case cannot be built, has no
-/// gravity, or no soil that yields.
+/// How long a trial may take to come to rest, 40 of the body's longest periods [s].
+double longest_rest(const Case& scene);
+
+/// Divides strength by factors from a bracket that gets narrower, each trial from the rest with the largest
+/// factor so far, the first from the unstressed or K0 state at the start. Stable: the unbalanced force ratio
+/// falls below 1e-4 within 40 of the body's longest periods and before displacements exceed 5 times those at
+/// rest (the ratio alone would take a failed slope for stable that has flowed to a new rest). Throws
+/// std::runtime_error where the case cannot be built, has no gravity, or no soil that yields.
 StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options);
 
 }  // namespace porosph

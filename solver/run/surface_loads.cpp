@@ -87,34 +87,42 @@ std::vector<Vec2> surface_vectors(const Case& scene, const Model& model) {
   return vectors;
 }
 
-std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model) {
-  if (scene.loads.empty()) return {};
-  const std::vector<Vec2> vectors = surface_vectors(scene, model);
+StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,
+                                const Model& model, std::span<const Vec2> vectors) {
   const std::vector<OutlineEdge> edges = free_edges(scene);
   const Particles& p = model.particles;
   // L differs from that inside within 2 h of the surface, and their neighbours feel it.
   const double reach = 4 * model.smoothing_length, spacing = model.spacing;
+  const Vec2 way = end - start;
+  const double length = way.norm();
+  StretchOfParticles found;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec2 from_start = p.position[i] - start;
+    const double away = std::abs(from_start.dot(normal));
+    if (away > reach || vectors[i].norm() < some_area * spacing) continue;
+    const double along = from_start.dot(way) / length, share = share_on(along, length, spacing);
+    if (share == 0) continue;
+    found.particles.push_back(static_cast<std::int32_t>(i));
+    found.along.push_back(std::clamp(along, 0.0, length));
+    found.areas.push_back(share * area_on(vectors[i], normal, p.position[i], away, edges, reach));
+  }
+  return found;
+}
+
+std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model) {
+  if (scene.loads.empty()) return {};
+  const std::vector<Vec2> vectors = surface_vectors(scene, model);
   std::vector<LoadedParticles> loads;
   for (const LoadCase& load : scene.loads) {
+    const Vec2 normal = outward_normal(scene, load.from, load.to);
+    StretchOfParticles on = particles_on(load.from, load.to, normal, scene, model, vectors);
     LoadedParticles loaded{.load = std::make_shared<Traction>(load),
-                           .normal = outward_normal(scene, load),
-                           .particles = {},
+                           .normal = normal,
+                           .particles = std::move(on.particles),
                            .places = {},
-                           .areas = {}};
+                           .areas = std::move(on.areas)};
     const Vec2 way = load.to - load.from;
-    const double length = way.norm();
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const Vec2 from_start = p.position[i] - load.from;
-      if (std::abs(from_start.dot(loaded.normal)) > reach || vectors[i].norm() < some_area * spacing)
-        continue;
-      const double along = from_start.dot(way) / length, share = share_on(along, length, spacing);
-      if (share == 0) continue;
-      const double area = share * area_on(vectors[i], loaded.normal, p.position[i],
-                                          std::abs(from_start.dot(loaded.normal)), edges, reach);
-      loaded.particles.push_back(static_cast<std::int32_t>(i));
-      loaded.places.push_back(load.from + std::clamp(along / length, 0.0, 1.0) * way);
-      loaded.areas.push_back(area);
-    }
+    for (const double along : on.along) loaded.places.push_back(load.from + along / way.norm() * way);
     if (loaded.particles.empty())
       throw std::runtime_error(
           fmt::format("load '{}': no particle is near its stretch of the outline", load.name));

@@ -24,6 +24,15 @@ struct LoadedParticles {
 /// case's own form. A traction sigma n_a is then in balance with a uniform stress sigma to rounding.
 std::vector<Vec2> surface_vectors(const Case& scene, const Model& model);
 
+/// The particles whose surface lies on a straight stretch of the outline.
+struct StretchOfParticles {
+  std::vector<std::int32_t> particles;
+  std::vector<double> along;  ///< of each, from the stretch's beginning [m]
+  std::vector<double> areas;  ///< of each, as in LoadedParticles [m]
+};
+StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,
+                                const Model& model, std::span<const Vec2> surface_vectors);
+
 /// Throws std::runtime_error where no particle is near a load's stretch.
 std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model);
 

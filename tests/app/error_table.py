@@ -57,6 +57,12 @@ from = [1, 2]
 to = [3, 2]
 pressure = 1e4
 """
+FOOTING = """[[footing]]
+name = "plate"
+from = [1, 2]
+to = [3, 2]
+force = 1e4
+"""
 OUTLINE = "[[0, 0], [4, 0], [4, 2], [0, 2]]"
 
 # What is wrong, as a person would say it; then the text of the case that is replaced, and by what.
@@ -142,6 +148,11 @@ OF_THE_GROUND = [
     ("a load between two soils", "[[boundary]]", CLAY.replace("4.2", "4")
      + LOAD.replace("[1, 2]", "[4, 0]").replace("[3, 2]", "[4, 2]") + "[[boundary]]"),
     ("a load of nothing", "[time]", LOAD.replace("pressure = 1e4\n", "") + "[time]"),
+    ("a footing that nothing drives", "[time]", FOOTING.replace("force = 1e4\n", "") + "[time]"),
+    ("a footing that jumps", "[time]", FOOTING.replace("force = 1e4", "settlement = 0.1") + "[time]"),
+    ("a footing on a wall", "[time]", FOOTING.replace(", 2]", ", 0]") + "[time]"),
+    ("a footing in the paper's form", "[time]", FOOTING + "[formulation]\nmotion = \"proposed\"\n[time]"),
+    ("a footing in a case with stages", "[time]", FOOTING + "[[stage]]\nname = \"next\"\nduration = 1\n[time]"),
 ]
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
 
@@ -218,6 +229,7 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
+    ("a failure without strength reduction", "safety case.toml --method limit-equilibrium --then-run", {}),
     ("an element test of a soil that is not there", "element case.toml clay", {}),
     ("an element test that there is not", "element case.toml --test triaxial", {}),
     ("an element test to nowhere", "element case.toml --strain 0.1 --strain 0.1", {}),

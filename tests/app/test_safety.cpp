@@ -131,3 +131,30 @@ TEST_CASE("strength reduction alone leaves limit equilibrium out") {
   CHECK_FALSE(answer(place, "found").contains("limit_equilibrium"));
   CHECK_FALSE(exists(place, "found/slip_surfaces.csv"));
 }
+
+TEST_CASE("a slope whose factor is known is let fail") {
+  const Workplace place;
+  place.write("slope.toml", slope + "[[probe]]\nname = \"crest\"\nposition = [11, 9.5]\n");
+  const std::string safety = "safety slope.toml --method strength-reduction --bracket 0.2 --quiet --force ";
+  const Outcome outcome = place.porosph(safety + "--then-run=2 --out found");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  for (const char* file : {"rest/summary.json", "runout/summary.json", "runout/case.toml", "runout.png"})
+    CHECK(exists(place, std::string("found/") + file));
+  const auto summary = [&](const std::string& run) {
+    return nlohmann::json::parse(text_of(place.folder() / "found" / run / "summary.json"));
+  };
+  CHECK(summary("rest")["status"] == "equilibrium");
+  const auto sunk = [&](const std::string& run) {
+    return -summary(run)["probes"]["crest"]["values"]["Displacement_Y"].get<double>();
+  };
+  CHECK(sunk("rest") < 0.05);
+  CHECK(sunk("runout") > 1);
+  const Outcome strong = place.porosph(safety + "--then-run=1.01 --out found");
+  CHECK(strong.status == 2);
+  CHECK_THAT(strong.err, Contains("--then-run=1.01: must be from"));
+  const Outcome without =
+      place.porosph("safety slope.toml --method limit-equilibrium --quiet --then-run --out alone");
+  CHECK(without.status == 2);
+  CHECK_THAT(without.err, Contains("--then-run needs strength reduction"));
+}

@@ -66,6 +66,8 @@ std::string_view words_of(TrialEnd end) {
       return "at rest";
     case TrialEnd::moved_far:
       return "moved far";
+    case TrialEnd::flows:
+      return "flows";
     case TrialEnd::not_at_rest:
       return "not at rest";
     case TrialEnd::broke_down:

@@ -52,7 +52,7 @@ Section section_of(const Case& scene) {
   std::vector<GroundLoad> loads;
   for (const LoadCase& load : scene.loads) {
     const Traction traction(load);
-    const Point normal = outward_normal(scene, load);
+    const Point normal = outward_normal(scene, load.from, load.to);
     loads.push_back({load.from, load.to, traction.traction(load.from, normal, scene.time.end),
                      traction.traction(load.to, normal, scene.time.end)});
   }

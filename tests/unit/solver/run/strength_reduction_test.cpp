@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/case/case_file.hpp"
+#include "solver/run/kept_state.hpp"
 #include "tests/box_of_soil.hpp"
 
 using namespace porosph;
@@ -47,7 +48,6 @@ TEST_CASE("a weakened case has its cohesion and tan(phi) divided", "[safety]") {
   CHECK(weak.soils[1].strength.undrained_strength == Approx(25e3));
   CHECK(weak.soils[1].strength.growth == Approx(1250));
   CHECK(weak.soils[2].law == LawKind::elastic);
-  CHECK(weakened(scene, 0).soils[0].law == LawKind::elastic);
 }
 
 TEST_CASE("strength reduction finds the slope's factor, whatever it begins with", "[safety]") {
@@ -81,10 +81,31 @@ TEST_CASE("a factor below one is found, and none where the soil cannot fail", "[
   CHECK_FALSE(none.mechanism);
 }
 
+TEST_CASE("a simulation goes on from a kept state to the same bits", "[safety]") {
+  Case scene = slope(1);
+  scene.time.end = 1, scene.formulation.refresh_strain = never;
+  Simulation first(scene);
+  for (int k = 0; k < 60; ++k) first.advance();
+  const KeptState kept(first);
+  for (int k = 0; k < 40; ++k) first.advance();
+  Simulation second(scene);
+  kept.restore(second);
+  CHECK(second.step() == 60);
+  for (int k = 0; k < 40; ++k) second.advance();
+  CHECK(second.model().particles.position == first.model().particles.position);
+  CHECK(second.model().particles.velocity == first.model().particles.velocity);
+  Simulation other(slope(2));
+  CHECK_THROWS_AS(kept.restore(other), StateError);
+}
+
 TEST_CASE("strength reduction says what it cannot do", "[safety]") {
   Case elastic = slope(1);
   elastic.soils[0].law = LawKind::elastic;
   CHECK_THROWS_WITH(reduce_strength(elastic, {}), Catch::Contains("no soil yields"));
+  Case pushed = slope(1);
+  pushed.footings.push_back(
+      {.name = "plate", .from = {2, 10}, .to = {6, 10}, .settlement = 0.1, .over_time = {}});
+  CHECK_THROWS_WITH(reduce_strength(pushed, {}), Catch::Contains("driven by its settlement"));
   Case weightless = slope(1);
   weightless.loading.gravity_applied = false;
   CHECK_THROWS_WITH(reduce_strength(weightless, {}), Catch::Contains("gravity_applied"));
