@@ -186,10 +186,11 @@ TEST_CASE("consolidation: two layers") {
            0.005);
   });
   const double last = 10e3 * (2 / 24e6 + 2 / 12e6);
+  const double above = 10e3 * 0.1 / 24e6;  // half a spacing of drained silt above the top particles
   expect({.name = "two_layers",
           .settings = {},
           .quantity = "settlement at the end over the last one",
           .reference = "series of eigenfunctions of both layers",
           .resolution = metres(0.2)},
-         std::abs(settlement(s) / last - exact.degree(s.time())), 0.005);
+         std::abs((settlement(s) + above) / last - exact.degree(s.time())), 0.005);
 }

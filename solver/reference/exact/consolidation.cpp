@@ -25,8 +25,8 @@ double layer_series(double factor, Term&& term) {
 
 /// atan(ratio tan(angle)) without jumps.
 double turned(double angle, double ratio) {
-  const double whole = std::round(angle / pi) * pi;
-  return whole + std::atan(ratio * std::tan(angle - whole));
+  const double whole = std::round(angle / pi) * pi, rest = angle - whole;
+  return whole + std::atan2(ratio * std::sin(rest), std::cos(rest));
 }
 
 }  // namespace
