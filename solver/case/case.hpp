@@ -112,6 +112,8 @@ struct WaterCase {
       {};  ///< of water that flows; of those that overlap the last one holds
   bool present() const { return !stretches.empty(); }  ///< it stands under a level
   bool flows() const { return mode != WaterMode::still; }
+  /// Soil and water answer each other, both at rest all the while.
+  bool couples() const { return mode == WaterMode::coupled || mode == WaterMode::undrained; }
 };
 
 enum class BoundaryKind {

@@ -238,8 +238,8 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   if (!c.start_from.empty() && c.reference != Reference::none)
     issues.push_back(
         {"start_from", "does not go with 'reference', which is for a case that starts by itself"});
-  if (!c.start_from.empty() && c.water.mode == WaterMode::coupled)
-    issues.push_back({"start_from", "does not go with water.mode = \"coupled\""});
+  if (!c.start_from.empty() && c.water.couples())
+    issues.push_back({"start_from", fmt::format("does not go with water.mode = \"{}\"", name(c.water.mode))});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.soils[i].law == LawKind::cam_clay && c.soils[i].cam_clay.preconsolidation == 0 &&
         !c.loading.k0_stress)
@@ -250,8 +250,10 @@ std::vector<CaseIssue> check_settings(const Case& c) {
     if (c.boundaries[i].kind != BoundaryKind::friction) continue;
     if (c.formulation.motion != Motion::consistent)
       issues.push_back({at("boundary", i, "kind"), "\"friction\" needs formulation.motion = \"consistent\""});
-    if (c.water.mode == WaterMode::coupled)
-      issues.push_back({at("boundary", i, "kind"), "\"friction\" does not go with water.mode = \"coupled\""});
+    if (c.water.couples())
+      issues.push_back(
+          {at("boundary", i, "kind"),
+           fmt::format("\"friction\" does not go with water.mode = \"{}\"", name(c.water.mode))});
   }
   const Issues of_flow = check_flow_settings(c);
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());

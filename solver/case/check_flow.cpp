@@ -13,7 +13,7 @@ using Issues = std::vector<CaseIssue>;
 
 /// Settings of soils that the mode of the water does not use.
 void check_unused(const Case& c, Issues& issues) {
-  const bool flows = c.water.flows(), steady = c.water.mode == WaterMode::steady;
+  const bool steady = c.water.mode == WaterMode::steady, seeps = steady || c.water.mode == WaterMode::coupled;
   for (std::size_t i = 0; i < c.soils.size(); ++i) {
     const SoilCase& soil = c.soils[i];
     const auto unused = [&](bool given, std::string_view key, std::string_view mode) {
@@ -21,9 +21,9 @@ void check_unused(const Case& c, Issues& issues) {
         issues.push_back(
             {fmt::format("soil[{}].{}", i, key), fmt::format("is used only with water.mode = {}", mode)});
     };
-    unused(!flows && soil.permeability.x() > 0, "permeability", "\"steady\" or \"coupled\"");
+    unused(!seeps && soil.permeability.x() > 0, "permeability", "\"steady\" or \"coupled\"");
     unused(!steady && soil.retention.model != RetentionModel::saturated, "retention", "\"steady\"");
-    unused(flows && steady && soil.porosity > 0, "porosity", "\"coupled\"");
+    unused(steady && soil.porosity > 0, "porosity", "\"coupled\" or \"undrained\"");
   }
 }
 
@@ -40,25 +40,23 @@ void check_steady(const Case& c, Issues& issues) {
 }
 
 void check_coupled(const Case& c, Issues& issues) {
+  const std::string mode = fmt::format("water.mode = \"{}\"", name(c.water.mode));
   if (c.loading.damping > 0 || c.loading.adaptive_damping)
-    issues.push_back({"loading.damping", "is not used with water.mode = \"coupled\": the soil is at rest"});
+    issues.push_back({"loading.damping", fmt::format("is not used with {}: the soil is at rest", mode)});
   if (c.stop.unbalanced_force_ratio > 0)
     issues.push_back({"stop.unbalanced_force_ratio",
-                      "is not used with water.mode = \"coupled\": the soil is at rest all the while"});
-  for (std::size_t i = 0; i < c.soils.size(); ++i)
-    if (c.soils[i].no_tension || c.soils[i].law != LawKind::elastic)
-      issues.push_back({fmt::format("soil[{}].{}", i, c.soils[i].no_tension ? "no_tension" : "law"),
-                        "is not available with water.mode = \"coupled\": the soil must be linear elastic"});
+                      fmt::format("is not used with {}: the soil is at rest all the while", mode)});
   for (std::size_t i = 0; i < c.water.faces.size(); ++i)
     if (c.water.faces[i].kind == FaceKind::seepage)
       issues.push_back({fmt::format("water.face[{}].kind", i),
-                        "must be \"head\", \"closed\" or \"flux\" with water.mode = \"coupled\""});
+                        fmt::format("must be \"head\", \"closed\" or \"flux\" with {}", mode)});
   double top = -never;
   for (const SoilCase& soil : c.soils)
     for (const Point& p : soil.polygon) top = std::max(top, p.y());
   if (c.water.present() && c.water.stretches.front().level < top)
-    issues.push_back({"water.level",
-                      fmt::format("must be >= {:g} m, the top of the soil: coupled soil is saturated", top)});
+    issues.push_back(
+        {"water.level", fmt::format("must be >= {:g} m, the top of the soil: {} soil is saturated", top,
+                                    name(c.water.mode))});
 }
 
 }  // namespace
@@ -68,7 +66,7 @@ std::vector<CaseIssue> check_flow_settings(const Case& c) {
   check_unused(c, issues);
   if (!c.water.flows()) return issues;
   for (std::size_t i = 0; i < c.soils.size(); ++i)
-    if (!(c.soils[i].permeability.x() > 0))
+    if (c.water.mode != WaterMode::undrained && !(c.soils[i].permeability.x() > 0))
       issues.push_back({fmt::format("soil[{}].permeability", i), "is missing: water flows in this soil"});
   if (c.formulation.motion != Motion::consistent)
     issues.push_back({"formulation.motion", "must be \"consistent\" where water flows"});

@@ -25,9 +25,10 @@ Issues check_settings_of_stages(const Case& c) {
       if (const std::string fault = outline_fault(c.stages[i].excavate_within[k]); !fault.empty())
         issues.push_back({key(i, fmt::format("excavate_within[{}]", k)), fault});
   }
-  if (c.water.mode == WaterMode::coupled)
-    issues.push_back(
-        {"stage[0]", "water.mode = \"coupled\" does not go with stages: it must be \"still\" or \"steady\""});
+  if (c.water.couples())
+    issues.push_back({"stage[0]", fmt::format("water.mode = \"{}\" does not go with stages: it must be "
+                                              "\"still\" or \"steady\"",
+                                              name(c.water.mode))});
   if (c.reference != Reference::none) issues.push_back({"reference", "is for a case without stages"});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.soils[i].angular_velocity != 0 || c.soils[i].bending_velocity != 0)

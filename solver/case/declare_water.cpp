@@ -9,31 +9,39 @@ namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 3> water_modes{"still", "steady", "coupled"};
+constexpr std::array<Names, 4> water_modes{name(WaterMode::still), name(WaterMode::steady),
+                                           name(WaterMode::coupled), name(WaterMode::undrained)};
 constexpr std::array<Names, 4> face_kinds{"head", "closed", "seepage", "flux"};
 
 bool level_everywhere(const WaterCase& c) {
   return c.stretches.size() == 1 && c.stretches[0].x_from == -never && c.stretches[0].x_to == never;
 }
 
-void declare_coupling(Fields& f, bool used, CouplingCase& c) {
+void declare_coupling(Fields& f, const WaterCase& water, CouplingCase& c) {
   const auto key = [&](std::string_view name, std::string_view unit, std::string_view meaning) {
-    return Key(name, unit, meaning).only_if(used, "mode = \"coupled\"");
+    return Key(name, unit, meaning).only_if(water.couples(), "mode = \"coupled\" or \"undrained\"");
   };
   bool incompressible = !(c.bulk_modulus < never);
   double modulus = incompressible ? CouplingCase{}.bulk_modulus : c.bulk_modulus;
   f.number_or(key("bulk_modulus", "Pa", "Of water; `incompressible`: it keeps its volume."), modulus,
               above(0, stiffest), "incompressible", incompressible);
   c.bulk_modulus = incompressible ? CouplingCase::incompressible : modulus;
-  f.number(key("first_step", "s", "First step of the flow.")
-               .otherwise("spacing^2 / c_v, which water takes from one particle to the next"),
-           c.first_step, above(0, longest));
-  f.number(key("growth", "", "Largest ratio of a flow step to the one before it."), c.growth, between(1, 2));
+  f.number(
+      key("first_step", "s", "First step of the flow; with `undrained` each step, in which the loads change.")
+          .otherwise("spacing^2 / c_v, which water takes from one particle to the next; with "
+                     "`undrained` a hundredth of the run"),
+      c.first_step, above(0, longest));
+  f.number(Key("growth", "", "Largest ratio of a flow step to the one before it.")
+               .only_if(water.mode == WaterMode::coupled, "mode = \"coupled\""),
+           c.growth, between(1, 2));
   f.number(key("tolerance", "",
                "Of the error that a flow step makes in time, over the largest excess pressure; a tenth of it "
-               "may be "
-               "left of forces and of changes of pressure."),
+               "may be left of forces and of changes of pressure."),
            c.tolerance, between(1e-6, 0.1));
+  f.number(key("stabilisation", "",
+               "Keeps pressure from alternating between particles where water cannot flow: `a` of "
+               "[theory](theory.md#undrained-soil); 0 is off."),
+           c.stabilisation, between(0, 1));
 }
 
 }  // namespace
@@ -67,25 +75,27 @@ void declare(Fields& f, WaterCase& c) {
       Key("mode", "",
           "`still`: the water stands under its level; `steady`: it flows steadily between the faces "
           "[[water.face]], and the soil then comes to rest in that flow; `coupled`: saturated soil under a "
-          "level gives its water away over time, at rest all the while (consolidation)."),
+          "level gives its water away over time, at rest all the while (consolidation); `undrained`: it "
+          "keeps "
+          "its water."),
       c.mode, water_modes);
   f.number(Key("unit_weight", "N/m3", "Unit weight of water."), c.unit_weight, above(0, heaviest));
   const bool still = c.mode == WaterMode::still, levelled = c.mode != WaterMode::steady;
-  const bool coupled = c.mode == WaterMode::coupled;
-  declare_coupling(f, coupled, c.coupling);
+  const bool faces = c.mode == WaterMode::steady || c.mode == WaterMode::coupled;
+  declare_coupling(f, c, c.coupling);
   f.tables(Key("face", "",
                "What holds at a stretch of the outline of the soils where water flows; where faces overlap "
                "the later "
                "one holds. With `steady` the whole outline must be named. With `coupled` nothing passes "
                "boundaries "
                "and the rest drains, where no face says otherwise.")
-               .only_if(c.mode != WaterMode::still, "mode = \"steady\" or \"coupled\""),
+               .only_if(faces, "mode = \"steady\" or \"coupled\""),
            c.faces);
   const bool moves = !c.level_over_time.empty();
   double level = level_everywhere(c) && !moves ? c.stretches[0].level : never;
   std::vector<WaterStretch> stretches = level_everywhere(c) ? std::vector<WaterStretch>{} : c.stretches;
   f.number(Key("level", "m", "y of the free surface, the same everywhere.")
-               .only_if(levelled, "mode = \"still\" or \"coupled\"")
+               .only_if(levelled, "mode = \"still\", \"coupled\" or \"undrained\"")
                .otherwise("see `stretches`"),
            level, between(-farthest, farthest));
   f.tables(Key("stretches", "",

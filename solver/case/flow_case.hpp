@@ -4,15 +4,23 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <string_view>
 
 namespace porosph {
 
 /// What the pore water does.
 enum class WaterMode {
-  still,   ///< it stands under its level: hydrostatic
-  steady,  ///< steady seepage between the faces; the soil then carries that flow
-  coupled  ///< saturated soil gives its water away over time: consolidation
+  still,     ///< it stands under its level: hydrostatic
+  steady,    ///< steady seepage between the faces; the soil then carries that flow
+  coupled,   ///< saturated soil gives its water away over time: consolidation
+  undrained  ///< saturated soil keeps its water
 };
+
+/// As in the case file.
+constexpr std::string_view name(WaterMode mode) {
+  constexpr std::string_view names[] = {"still", "steady", "coupled", "undrained"};
+  return names[static_cast<int>(mode)];
+}
 
 /// How permeability and saturation fall above the water table.
 enum class RetentionModel {
@@ -26,6 +34,7 @@ struct CouplingCase {
   static constexpr double incompressible = std::numeric_limits<double>::infinity();
   double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
   double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
+  double stabilisation = 0.25;  ///< a of tau = a gamma_w dx^2 / M: see PressureStabilisation [-]
   double growth = 1.3;          ///< largest ratio of a flow step to the one before it [-]
   double tolerance = 0.001;     ///< of the error in time; a tenth of it of force and pressure [-]
 };

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "solver/boundary/load.hpp"
-#include "solver/run/leapfrog.hpp"
 #include "solver/space/parallel.hpp"
 #include "solver/water/flow/default_faces.hpp"
 
@@ -16,60 +14,81 @@ namespace porosph {
 namespace {
 
 constexpr double gamma_of_sdirk = 1 - 1 / std::numbers::sqrt2;
-constexpr double waves_between_solves = 1.2;  // crossings of the body by a sweep's wave
 constexpr double usual_porosity = 0.4;
 constexpr double share_of_split = 0.1;  // of the tolerance: what one turn leaves, the next ones add up
-constexpr int most_turns = 1000;
+constexpr int most_turns = 300;
 constexpr double krylov_tolerance = 1e-5;
+constexpr std::size_t rests_kept = 3;
+constexpr double load_steps = 100;  // where the case names no step
 
 double rms(std::span<const double> x) {
   return std::sqrt(deterministic_sum(x.size(), [&](std::size_t i) { return x[i] * x[i]; }) /
                    static_cast<double>(x.size()));
 }
 
+/// Heads count as below all levels: kr = 1.
+DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
+                         const Particles& p, double spacing) {
+  const std::vector<double> below(p.size(), -1e9);
+  return {make_flow_pairs(soils, outline, p, spacing), outline, std::vector<Retention>(soils.size()), p.soil,
+          below};
+}
+
+/// tau = a gamma_w dx^2 / M of each soil, as a permeability.
+PressureStabilisation stabilisation(const Case& scene, const Model& model) {
+  if (scene.water.coupling.stabilisation == 0) return {};
+  std::vector<SoilCase> soils = scene.soils;
+  const double all =
+      scene.water.coupling.stabilisation * scene.water.unit_weight * model.spacing * model.spacing;
+  for (std::size_t i = 0; i < soils.size(); ++i)
+    soils[i].permeability = Point::Constant(all / model.soils[i].constrained_modulus());
+  const HydraulicOutline outline =
+      hydraulic_outline(soils, {{.kind = FaceKind::closed}}, scene.particles.spacing);
+  return {saturated_flow(soils, outline, model.particles, model.spacing), outline, model.particles.position};
+}
+
 }  // namespace
 
-/// With every kr = 1: heads are excess heads, measured from the level of the water that stands.
-Consolidation::Drainage Consolidation::drainage(const Case& scene, const Particles& p) {
+/// Heads are excess heads, measured from the level of the water that stands.
+std::optional<Consolidation::Drainage> Consolidation::drainage(const Case& scene, const Particles& p) {
+  if (scene.water.mode == WaterMode::undrained) return std::nullopt;
   const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
   const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
-  const std::vector<double> below(p.size(), -1e9);
   Drainage d{.outline = outline,
              .faces = FaceConditions(outline, faces, true),
-             .flow = {make_flow_pairs(scene.soils, outline, p, scene.particles.spacing), outline,
-                      std::vector<Retention>(scene.soils.size()), p.soil, below}};
+             .flow = saturated_flow(scene.soils, outline, p, scene.particles.spacing)};
   d.pinned = d.flow.pinning_patches(d.faces);
   return d;
 }
 
-Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics, double dt)
-    : soil_{.model = model, .dynamics = dynamics, .dt = dt},
+Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics,
+                             std::span<const LoadedParticles> loads, double dt)
+    : model_(model),
+      soil_(model, dynamics, loads, dt),
       settings_(scene.water.coupling),
       unit_weight_(scene.water.unit_weight),
-      drainage_(drainage(scene, model.particles)) {
+      drainage_(drainage(scene, model.particles)),
+      stabilisation_(stabilisation(scene, model)) {
   const Particles& p = model.particles;
   const std::size_t n = p.size();
   double fastest = 0;
   for (std::size_t a = 0; a < n; ++a) {
     const SoilCase& soil = scene.soils[p.soil[a]];
     const double volume = p.volume(a), modulus = model.soils[p.soil[a]].constrained_modulus();
-    of_.start_volume.push_back(volume);
     const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
     of_.storage.push_back(unit_weight_ * porosity * volume / scene.water.coupling.bulk_modulus);
     of_.split.push_back(unit_weight_ * volume / modulus);
     fastest = std::max(fastest, soil.permeability.maxCoeff() * modulus / unit_weight_);
   }
-  of_.head.assign(n, 0), of_.water.assign(n, 0);
-  of_.inflow.resize(n), of_.residual.resize(n), of_.change.resize(n);
-  soil_.accelerations.resize(n);
-  Vec2 low = p.position.front(), high = low;
-  for (const Vec2& x : p.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  soil_.extent = (high - low).maxCoeff();
-  progress_.step = settings_.first_step > 0 ? settings_.first_step : model.spacing * model.spacing / fastest;
+  of_.head.assign(n, 0), of_.water.assign(n, 0), of_.smoothed.assign(n, 0), of_.inflow.assign(n, 0);
+  of_.residual.resize(n), of_.change.resize(n);
+  progress_.step = drainage_ ? model.spacing * model.spacing / fastest : scene.time.end / load_steps;
+  if (settings_.first_step > 0) progress_.step = settings_.first_step;
 }
 
-double Consolidation::volume_gained(std::size_t a) const {
-  return soil_.model.particles.volume(a) - of_.start_volume[a];
+/// W as the soil and the head have it [m2].
+double Consolidation::water_of(std::size_t a) const {
+  return soil_.volume_gained(a) + of_.storage[a] * of_.head[a] + of_.smoothed[a];
 }
 
 double Consolidation::imbalance() const {
@@ -78,119 +97,137 @@ double Consolidation::imbalance() const {
   return missing;
 }
 
-/// While the soil moves, sigma' + p_e is its stress, and p_w that of the water that stands.
-void Consolidation::take_up_pressure() {
-  Particles& p = soil_.model.particles;
-  for (std::size_t a = 0; a < p.size(); ++a) {
-    const double excess = -unit_weight_ * of_.head[a];
-    p.stress[a] = p.stress[a].plus_isotropic(excess);
-    p.pore_pressure[a] -= excess;
-  }
+Consolidation::Counts Consolidation::counts() const {
+  Counts counts = counts_;
+  counts.soil_sweeps = soil_.sweeps();
+  return counts;
 }
 
-void Consolidation::give_back_pressure() {
-  Particles& p = soil_.model.particles;
-  for (std::size_t a = 0; a < p.size(); ++a) {
-    const double excess = -unit_weight_ * of_.head[a];
-    p.stress[a] = p.stress[a].plus_isotropic(-excess);
-    p.pore_pressure[a] += excess;
-  }
+/// While the soil moves, p_w is that of the water that stands.
+void Consolidation::show_pressure(double sign) {
+  Particles& p = model_.particles;
+  for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += sign * soil_.excess()[a];
 }
 
-/// RMS of the forces per volume, over the pressure per extent of the body [-].
-double Consolidation::out_of_balance() const {
-  const Particles& p = soil_.model.particles;
-  const double squares = deterministic_sum(
-      p.size(), [&](std::size_t a) { return (p.density[a] * soil_.accelerations[a]).squaredNorm(); });
-  return std::sqrt(squares / static_cast<double>(p.size())) * soil_.extent / (unit_weight_ * progress_.scale);
+/// -dR/dh and R at the present head.
+void Consolidation::assemble() {
+  if (drainage_)
+    return drainage_->flow.assemble(of_.head, drainage_->faces, DarcyFlow::Slope::secant, slope_, of_.inflow);
+  const std::size_t n = of_.head.size();
+  if (stabilisation_.active())
+    slope_ = stabilisation_.compact();
+  else
+    slope_.begin.assign(n + 1, 0);
+  std::ranges::fill(slope_.value, 0.0);
+  slope_.diagonal.assign(n, 0);
 }
 
-void Consolidation::relax(int sweeps, double time) {
-  Particles& p = soil_.model.particles;
-  for (int k = 0; k <= sweeps; ++k) {
-    soil_.dynamics.prepare();
-    soil_.dynamics.accelerations(soil_.accelerations);
-    add_loads(soil_.model.loads, p, time, soil_.accelerations);
-    if (!soil_.before.empty()) soil_.relaxation.measure(p, soil_.before, soil_.accelerations, soil_.dt);
-    soil_.before.clear();
-    if (k == sweeps) return;
-    if (counts_.soil_sweeps % Relaxation::steps_between == 0) soil_.before = soil_.accelerations;
-    const Kick kick = full_kick(soil_.relaxation.damping, soil_.dt);
-#pragma omp parallel for schedule(static)
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] = kick(p.velocity[a], soil_.accelerations[a]);
-      p.position[a] += soil_.dt * p.velocity[a];
-    }
-    soil_.model.pore_water->follow(soil_.model.water, p, 0, p.size());
-    soil_.dynamics.strain(soil_.dt);
-    ++counts_.soil_sweeps;
-  }
-}
-
-/// (S + beta + tau H) change = known - dV - S h + tau R(h)
+/// (S + beta + T + tau H) change = known - dV - S h - T h + tau R(h), with the upper bound of T on the left.
 void Consolidation::solve_flow(std::span<const double> known, double tau) {
-  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
-  for (std::size_t a = 0; a < of_.head.size(); ++a) {
-    of_.residual[a] = drainage_.pinned[a] >= 0
-                          ? 0
-                          : known[a] - volume_gained(a) - of_.storage[a] * of_.head[a] + tau * of_.inflow[a];
-    drainage_.slope.diagonal[a] = tau * drainage_.slope.diagonal[a] + of_.storage[a] + of_.split[a];
+  assemble();
+  const std::size_t n = of_.head.size();
+  const auto pinned = [&](std::size_t a) { return drainage_ && drainage_->pinned[a] >= 0; };
+  if (stabilisation_.active()) stabilisation_.apply(of_.head, of_.smoothed);
+  for (std::size_t a = 0; a < n; ++a) {
+    of_.residual[a] = pinned(a) ? 0 : known[a] - water_of(a) + tau * of_.inflow[a];
+    slope_.diagonal[a] = tau * slope_.diagonal[a] + of_.storage[a] + of_.split[a];
   }
-  for (double& v : drainage_.slope.value) v *= tau;
+  for (double& v : slope_.value) v *= tau;
+  if (stabilisation_.active()) {
+    const SparseRows& compact = stabilisation_.compact();
+    for (std::size_t a = 0; a < n; ++a) {
+      slope_.diagonal[a] += compact.diagonal[a];
+      for (auto k = slope_.begin[a]; k < slope_.begin[a + 1]; ++k)
+        if (!pinned(a) && !pinned(slope_.column[k])) slope_.value[k] += compact.value[k];
+    }
+  }
   std::ranges::fill(of_.change, 0.0);
-  const KrylovResult solved =
-      conjugate_gradients(drainage_.slope, of_.residual, of_.change, krylov_tolerance, 20000);
+  const KrylovResult solved = conjugate_gradients(slope_, of_.residual, of_.change, krylov_tolerance, 20000);
   if (!solved.converged)
     throw std::runtime_error(
         fmt::format("consolidation: the pressure equations do not converge ({:.1e} left)", solved.residual));
   ++counts_.pressure_solves, counts_.krylov_iterations += solved.iterations;
-  Particles& p = soil_.model.particles;
-  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+  for (std::size_t a = 0; a < n; ++a) {
     of_.head[a] += of_.change[a];
-    p.stress[a] = p.stress[a].plus_isotropic(-unit_weight_ * of_.change[a]);
+    soil_.excess()[a] = -unit_weight_ * of_.head[a];
     progress_.scale = std::max(progress_.scale, std::abs(of_.head[a]));
   }
 }
 
-/// Flow and soil in turn until both keep still.
+/// Places and heads go on as through the last rests: a polynomial in time.
+void Consolidation::guess() {
+  const std::size_t count = rests_.size();
+  if (count < 2) return;
+  std::vector<double> weight(count, 1);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j)
+      if (i != j) weight[i] *= (progress_.time - rests_[j].time) / (rests_[i].time - rests_[j].time);
+  std::vector<Vec2> places(of_.head.size(), Vec2::Zero());
+  std::ranges::fill(of_.head, 0.0);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t a = 0; a < places.size(); ++a) {
+      places[a] += weight[i] * rests_[i].position[a];
+      of_.head[a] += weight[i] * rests_[i].head[a];
+    }
+  for (std::size_t a = 0; a < places.size(); ++a) soil_.excess()[a] = -unit_weight_ * of_.head[a];
+  soil_.move_to(places);
+}
+
 void Consolidation::settle(std::span<const double> known, double tau) {
-  const int sweeps = static_cast<int>(std::ceil(waves_between_solves * soil_.extent / soil_.model.spacing));
+  guess();
+  take_turns(known, tau);
+  if (rests_.size() == rests_kept) rests_.erase(rests_.begin());
+  rests_.push_back({progress_.time, model_.particles.position, of_.head});
+}
+
+/// Flow and soil in turn until both keep still.
+void Consolidation::take_turns(std::span<const double> known, double tau) {
   const double enough = share_of_split * settings_.tolerance;
   for (int turn = 0; turn < most_turns; ++turn) {
     solve_flow(known, tau);
-    relax(sweeps, progress_.time);
     double largest = 0;
     for (const double c : of_.change) largest = std::max(largest, std::abs(c));
-    progress_.unbalanced = progress_.scale > 0 ? out_of_balance() : 0;
-    if (!std::isfinite(progress_.unbalanced)) break;
     if (turn > 0 && largest <= enough * progress_.scale && progress_.unbalanced <= enough) return;
-    if (turn > 0 && progress_.scale == 0 && largest == 0) return;
+    soil_.relax(soil_.crossing(), progress_.time);
+    progress_.unbalanced =
+        progress_.scale > 0 ? soil_.out_of_balance() / (unit_weight_ * progress_.scale) : 0;
+    if (!std::isfinite(progress_.unbalanced)) break;
   }
+  const std::size_t a = soil_.fastest();
+  const Vec2 place = model_.particles.position[a] + model_.origin;
   throw std::runtime_error(fmt::format(
-      "consolidation: the soil does not come to rest at {:.6g} s: it fails, or tolerance is too small",
-      progress_.time));
+      "the soil does not come to rest at {:.6g} s: it fails around ({:.4g}, {:.4g}), or water.tolerance is "
+      "too small",
+      progress_.time, place.x(), place.y()));
 }
 
 /// The loads act at once; no water has left yet.
 void Consolidation::start() {
-  relax(static_cast<int>(std::ceil(waves_between_solves * soil_.extent / soil_.model.spacing)),
-        progress_.time);
+  soil_.relax(soil_.crossing(), progress_.time);
   settle(of_.water, 0);
   progress_.started = true;
 }
 
 double Consolidation::advance(double now, double until) {
   progress_.time = now;
-  take_up_pressure();
+  show_pressure(-1);
   try {
     if (!progress_.started) start();
-    now = flow_step(now, until);
+    now = drainage_ ? flow_step(now, until) : load_step(now, until);
   } catch (...) {
-    give_back_pressure();
+    show_pressure(1);
     throw;
   }
-  give_back_pressure();
+  show_pressure(1);
+  ++counts_.flow_steps;
   return now;
+}
+
+double Consolidation::load_step(double now, double until) {
+  const double left = until - now, step = std::min(left, progress_.step);
+  progress_.time = now + step;
+  settle(of_.water, 0);
+  return step < left ? now + step : until;
 }
 
 double Consolidation::flow_step(double now, double until) {
@@ -198,43 +235,48 @@ double Consolidation::flow_step(double now, double until) {
   const double step = left <= progress_.step ? left : std::min(progress_.step, left / 2);  // no tiny last one
   const double tau = gamma_of_sdirk * step;
   const std::size_t n = of_.head.size();
-  std::vector<double> known = of_.water, first(n);
+  std::vector<double> known = of_.water;
+  const auto add_through = [&](double weight) {
+    for (const double q : drainage_->flow.through_patches(of_.head, drainage_->faces))
+      progress_.drained -= weight * q;
+  };
 
   progress_.time = now + tau;
   settle(known, tau);
-  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
-  first = of_.inflow;
-  const auto add_through = [&](double weight) {
-    for (const double q : drainage_.flow.through_patches(of_.head, drainage_.faces))
-      progress_.drained -= weight * q;
-  };
+  assemble();
+  const std::vector<double> first = of_.inflow;
   add_through((1 - gamma_of_sdirk) * step);
 
   progress_.time = now + step;
   for (std::size_t a = 0; a < n; ++a) known[a] = of_.water[a] + (step - tau) * first[a];
   settle(known, tau);
-  drainage_.flow.assemble(of_.head, drainage_.faces, DarcyFlow::Slope::secant, drainage_.slope, of_.inflow);
+  assemble();
   add_through(tau);
   for (std::size_t a = 0; a < n; ++a) of_.water[a] = known[a] + tau * of_.inflow[a];
+  if (stabilisation_.active()) stabilisation_.apply(of_.head, of_.smoothed);
   for (std::size_t a = 0; a < n; ++a)  // what lies on a face that drains gives its water away at once
-    if (drainage_.pinned[a] >= 0) {
-      const double gained = volume_gained(a) + of_.storage[a] * of_.head[a];
+    if (drainage_->pinned[a] >= 0) {
+      const double gained = water_of(a);
       progress_.drained -= gained - of_.water[a], of_.water[a] = gained;
     }
+  choose_step(step, first);
+  return step < left ? now + step : until;
+}
 
-  for (std::size_t a = 0; a < n; ++a) of_.change[a] = tau * (of_.inflow[a] - first[a]) / of_.split[a];
+/// By the difference of the second-order step from the embedded one of backward Euler.
+void Consolidation::choose_step(double step, std::span<const double> first) {
+  const double tau = gamma_of_sdirk * step;
+  for (std::size_t a = 0; a < of_.head.size(); ++a)
+    of_.change[a] = tau * (of_.inflow[a] - first[a]) / of_.split[a];
   const double error = progress_.scale > 0 ? rms(of_.change) / progress_.scale : 0;
   const double wanted = error > 0 ? 0.9 * std::sqrt(settings_.tolerance / error) : settings_.growth;
   const double next = step * std::clamp(wanted, 0.3, settings_.growth);
   progress_.step = step < progress_.step ? std::max(next, std::min(progress_.step, step * wanted)) : next;
-  ++counts_.flow_steps;
-  return step < left ? now + step : until;
 }
 
 void Consolidation::visit(StateArchive& state) {
   state.array("excess_head", of_.head);
   state.array("water_gained", of_.water);
-  state.array("accelerations_at_rest", soil_.accelerations);
   state.value("flow_step", progress_.step);
   state.value("largest_head", progress_.scale);
   state.value("drained", progress_.drained);
@@ -243,10 +285,18 @@ void Consolidation::visit(StateArchive& state) {
   state.value("flow_steps", counts_.flow_steps);
   state.value("pressure_solves", counts_.pressure_solves);
   state.value("krylov_iterations", counts_.krylov_iterations);
-  state.value("soil_sweeps", counts_.soil_sweeps);
-  state.value("flow_relaxation_stiffness", soil_.relaxation.stiffness);
-  state.value("flow_relaxation_inertia", soil_.relaxation.inertia);
-  state.value("flow_relaxation_damping", soil_.relaxation.damping);
+  auto rests = static_cast<std::int64_t>(rests_.size());
+  state.value("rests", rests);
+  if (rests < 0 || rests > static_cast<std::int64_t>(rests_kept))
+    throw StateError("consolidation: more states at rest than a run keeps");
+  const std::size_t n = of_.head.size();
+  rests_.resize(rests, {0, std::vector<Vec2>(n), std::vector<double>(n)});
+  for (Rest& rest : rests_) {
+    state.value("rest_time", rest.time);
+    state.array("rest_position", rest.position);
+    state.array("rest_head", rest.head);
+  }
+  soil_.visit(state);
 }
 
 }  // namespace porosph

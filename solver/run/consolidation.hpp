@@ -1,34 +1,38 @@
-// Flow and deformation of saturated soil together, without inertia: consolidation.
+// Flow and deformation of saturated soil together, without inertia: consolidation, and loading without
+// drainage.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "solver/model/model.hpp"
-#include "solver/run/relaxation.hpp"
+#include "solver/run/resting_soil.hpp"
 #include "solver/sph/dynamics.hpp"
-#include "solver/water/flow/darcy_flow.hpp"
+#include "solver/water/flow/pressure_stabilisation.hpp"
 
 namespace porosph {
 
 /// Water keeps its volume or leaves, whatever the soil does: with W the volume of water that each particle
 /// has gained, dV that of its soil, h the excess head,
 ///
-///   W = dV + S h,      dW/dt = R(h)      (Darcy's flow between particles and through faces),
+///   W = dV + S h + T h,      dW/dt = R(h)      (Darcy's flow between particles and through faces),
 ///
-/// and the soil is at rest under its effective stress and the excess pressure p_e = -gamma_w h together,
-/// which act as one stress: P = J (sigma' + p_e I) F^-T. A flow step may be as long as its error allows
-/// (SDIRK of second order, gamma = 1 - 1/sqrt 2: Alexander 1977). Within a stage the fixed-stress split (Kim,
-/// Tchelepi, Juanes 2011) takes turns: the flow with the soil's stiffness M in place of its answer, then the
-/// soil by dynamic relaxation. W is carried from step to step, so the water's balance is exact.
+/// and the soil is at rest under its effective stress, by which it yields, and the excess pressure
+/// p_e = -gamma_w h. T keeps h from alternating (PressureStabilisation). A flow step may be as long as its
+/// error allows (SDIRK of second order, gamma = 1 - 1/sqrt 2: Alexander 1977). Within a stage the
+/// fixed-stress split (Kim, Tchelepi, Juanes 2011) takes turns: the flow with the soil's elastic stiffness M
+/// in place of its answer, then the soil by dynamic relaxation. W is carried from step to step, so the
+/// water's balance is exact. Undrained, W stays 0 and a step is one of the loads.
 class Consolidation {
  public:
   struct Counts {
     std::int64_t flow_steps = 0, pressure_solves = 0, krylov_iterations = 0, soil_sweeps = 0;
   };
 
-  /// `dt` of the soil's relaxation [s]. The particles must be at rest where they start.
-  Consolidation(const Case& scene, Model& model, Dynamics& dynamics, double dt);
+  /// `dt` of the soil's relaxation [s]. The particles must be at rest where they start. `loads` on the
+  /// surface.
+  Consolidation(const Case& scene, Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
+                double dt);
 
   /// One flow step from the time `now`, not beyond `until` [s]; returns the time that it reached. Throws
   /// std::runtime_error where the soil does not come to rest: it has failed.
@@ -38,47 +42,38 @@ class Consolidation {
   double drained() const { return progress_.drained; }       ///< volume that has left so far [m2]
   /// Volume that is missing: what the particles have lost less what has left [m2].
   double imbalance() const;
-  std::span<const Vec2> accelerations() const {
-    return soil_.accelerations;
-  }                                 ///< at rest, those that are left
+  std::span<const Vec2> accelerations() const { return soil_.accelerations(); }  ///< those that are left
   void visit(StateArchive& state);  ///< saves or restores all of it
-  const Counts& counts() const { return counts_; }
+  Counts counts() const;
   /// Forces left by the last step, as in the tolerance [-].
   double unbalanced() const { return progress_.unbalanced; }
 
  private:
   void start();
   double flow_step(double now, double until);
+  double load_step(double now, double until);
   void settle(std::span<const double> known, double tau);
+  void take_turns(std::span<const double> known, double tau);
+  void guess();
   void solve_flow(std::span<const double> known, double tau);
-  void relax(int sweeps, double time);
-  double volume_gained(std::size_t a) const;
-  double out_of_balance() const;
-  void take_up_pressure();
-  void give_back_pressure();
+  void assemble();
+  void choose_step(double step, std::span<const double> first_inflow);
+  double water_of(std::size_t a) const;
+  void show_pressure(double sign);
 
-  /// What brings the soil to rest.
-  struct Soil {
-    Model& model;
-    Dynamics& dynamics;
-    double dt;          ///< [s]
-    double extent = 0;  ///< of the body [m]
-    Relaxation relaxation = {};
-    std::vector<Vec2> accelerations = {}, before = {};
-  };
   /// What the water flows by.
   struct Drainage {
     HydraulicOutline outline;
     FaceConditions faces;
     DarcyFlow flow;
     std::vector<std::int32_t> pinned = {};  ///< patch of particles that lie on a face, or -1
-    SparseRows slope = {};
   };
   /// Of each particle.
   struct Amounts {
-    std::vector<double> start_volume, storage, split;  ///< V0 [m2]; S and beta of the split [m]
-    std::vector<double> head, water;                   ///< excess h [m]; W [m2]
-    std::vector<double> inflow, residual, change;      ///< of the present solve
+    std::vector<double> storage, split;            ///< S and beta of the split [m]
+    std::vector<double> head, water;               ///< excess h [m]; W [m2]
+    std::vector<double> smoothed;                  ///< T h [m2]
+    std::vector<double> inflow, residual, change;  ///< of the present solve
   };
   struct Progress {
     double step = 0, time = 0;  ///< [s]
@@ -87,14 +82,24 @@ class Consolidation {
     double unbalanced = 0;
     bool started = false;
   };
-  static Drainage drainage(const Case& scene, const Particles& particles);
+  /// How the soil came to rest, at the end of a stage.
+  struct Rest {
+    double time;  ///< [s]
+    std::vector<Vec2> position;
+    std::vector<double> head;
+  };
+  static std::optional<Drainage> drainage(const Case& scene, const Particles& particles);
 
-  Soil soil_;
+  Model& model_;
+  RestingSoil soil_;
   CouplingCase settings_;
   double unit_weight_;
-  Drainage drainage_;
+  std::optional<Drainage> drainage_;  ///< nothing: undrained
+  PressureStabilisation stabilisation_;
+  SparseRows slope_;
   Amounts of_;
   Progress progress_;
+  std::vector<Rest> rests_;  ///< the last ones, at different times
   Counts counts_;
 };
 

@@ -101,7 +101,7 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   clock_.dt = time_step_of(scene, model_, clock_.courant, clock_.start);
   clock_.last_step = std::llround(std::ceil((scene.time.end - clock_.start) / clock_.dt * (1 - 1e-12)));
   for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
-  if (scene.water.mode == WaterMode::coupled) couple();
+  if (scene.water.couples()) couple();
   at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     at_start_.bodies = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
@@ -135,8 +135,8 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
 void Simulation::couple() {
   if (scene_.time.step > 0)
     throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
-  consolidation_ =
-      std::make_unique<Consolidation>(moved(scene_, -model_.origin), model_, *dynamics_, clock_.dt);
+  consolidation_ = std::make_unique<Consolidation>(moved(scene_, -model_.origin), model_, *dynamics_,
+                                                   surface_loads_, clock_.dt);
   clock_.last_step = std::int64_t{1} << 40;
   clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
 }
@@ -167,6 +167,10 @@ void Simulation::advance_flow() {
     instability_ = Breakdown{.cause = Cause::not_at_rest, .time = time(), .message = failure.what()};
     return;
   }
+  take_accelerations_at_rest();
+}
+
+void Simulation::take_accelerations_at_rest() {
   const auto forces = consolidation_->accelerations();
   accelerations_.assign(forces.begin(), forces.end());
   accelerations_valid_ = true;
@@ -261,7 +265,7 @@ void Simulation::visit(StateArchive& state) {
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;
-  if (prepared) accelerations();
+  if (prepared) consolidation_ ? take_accelerations_at_rest() : void(accelerations());
   counts = counts_then;
 }
 

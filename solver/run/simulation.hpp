@@ -100,6 +100,7 @@ class Simulation {
   void drift();
   void couple();
   void advance_flow();
+  void take_accelerations_at_rest();
   std::int64_t next_tick_due() const;
   void name_breakdown(double time);
 

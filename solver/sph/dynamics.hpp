@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
 
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
@@ -33,6 +34,10 @@ class Dynamics {
   /// velocities from where the last prepare() saw them.
   virtual void strain(double dt) = 0;
 
+  /// From the next strain() on, the excess pore pressure p_e of each particle [Pa] acts with its effective
+  /// stress, as one stress; `excess` is read whenever the particles are strained.
+  virtual void carry_excess(std::span<const double> excess);
+
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
   /// saving. Lists and gradients are rebuilt by the code that made them first. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
@@ -46,6 +51,10 @@ class Dynamics {
   };
   Counts counts;
 };
+
+inline void Dynamics::carry_excess(std::span<const double>) {
+  throw std::logic_error("this form of the motion equation carries no excess pore pressure");
+}
 
 /// The dynamics that the case asks for.
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);

@@ -118,6 +118,8 @@ IN_THE_FLOW = [
     ("retention without all its numbers", WEIGHT,
      PERMEABLE + 'retention = { model = "van_genuchten", alpha = 2 }\n' + STEADY + CLOSED + ON_TOP),
     ("consolidation of soil above the water", WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nlevel = 1\n'),
+    ("undrained soil above the water", WEIGHT, WEIGHT + '[water]\nmode = "undrained"\nlevel = 1\n'),
+    ("stabilisation of water that stands", WEIGHT, WEIGHT + '[water]\nlevel = 3\nstabilisation = 0.1\n'),
     ("damping of soil that is at rest", WEIGHT,
      PERMEABLE + '[water]\nmode = "coupled"\nlevel = 3\n[loading]\ndamping = 0.1\n'),
     ("flow in one of the paper's forms", WEIGHT,

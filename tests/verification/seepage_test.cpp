@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "solver/reference/exact/consolidation.hpp"
 #include "solver/water/flow/outline.hpp"
 #include "tests/verification/verification.hpp"
 
@@ -108,34 +109,50 @@ TEST_CASE("seepage: the discharge under a sheet pile") {
   }
 }
 
-TEST_CASE("consolidation: a fill under its own weight") {
-  // Terzaghi's series for excess pressure that grows with depth, over gamma' H; M = 12 MPa.
-  constexpr double height = 4, buoyant = 16e3 - 9810, modulus = 12e6;
-  const auto series = [](double depth, double factor, bool of_degree) {
-    double sum = 0;
-    for (int m = 0; m < 200; ++m) {
-      const double root = (2 * m + 1) * 1.5707963267948966, sign = m % 2 == 0 ? 1 : -1;
-      const double term = of_degree ? 4 / (root * root * root) : 2 / (root * root) * std::sin(root * depth);
-      sum += sign * term * std::exp(-root * root * factor);
-    }
-    return of_degree ? 1 - sum : sum;
+namespace {
+
+/// Relative L2 error of the excess pressure over `load` [Pa], exact(depth / height).
+template <class Exact>
+double pressure_error(const Simulation& s, double height, double load, Exact&& exact) {
+  double error = 0, size = 0;
+  const Particles& p = s.model().particles;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const double expected = exact(1 - p.start[a].y() / height);
+    const double found = s.scene().water.unit_weight * s.consolidation()->head()[a] / load;
+    error += std::pow(found - expected, 2), size += expected * expected;
+  }
+  return std::sqrt(error / size);
+}
+
+double settlement(const Simulation& s) {
+  double lowest = 0;
+  for (std::size_t a = 0; a < s.model().particles.size(); ++a)
+    lowest = std::min(lowest, s.model().particles.displacement(a).y());
+  return -lowest;
+}
+
+/// Runs to the end and calls measure(s) whenever a frame is due after the start.
+template <class Measure>
+void measure_at_frames(Simulation& s, Measure&& measure) {
+  const auto frame = [&](Simulation& now) {
+    if (now.time() > 0) measure(now);
   };
+  run_to_end(s, {.frame = frame, .history = {}, .progress = {}, .interrupted = {}});
+  CHECK(std::abs(s.consolidation()->imbalance()) < 1e-8 * s.consolidation()->drained());
+}
+
+}  // namespace
+
+TEST_CASE("consolidation: a fill under its own weight") {
+  constexpr double height = 4, buoyant = 16e3 - 9810, modulus = 12e6;  // M of E = 10 MPa, nu = 0.25
   Simulation s(scene("consolidation"));
   std::vector<std::pair<double, double>> errors;  // T, error
-  const auto compare = [&](Simulation& now) {
-    if (now.time() == 0) return;
+  measure_at_frames(s, [&](const Simulation& now) {
     const double factor = now.time() * 1e-9 * modulus / 9810 / (height * height);
-    double error = 0, size = 0;
-    const Particles& p = now.model().particles;
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      const double exact = series(1 - p.start[a].y() / height, factor, false);
-      const double found =
-          now.scene().water.unit_weight * now.consolidation()->head()[a] / (buoyant * height);
-      error += std::pow(found - exact, 2), size += exact * exact;
-    }
-    errors.emplace_back(factor, std::sqrt(error / size));
-  };
-  run_to_end(s, {.frame = compare, .history = {}, .progress = {}, .interrupted = {}});
+    errors.emplace_back(factor, pressure_error(now, height, buoyant * height, [&](double depth) {
+                          return own_weight_pressure(depth, factor);
+                        }));
+  });
   REQUIRE(errors.size() == 4);
   for (const auto& [factor, error] : errors)
     expect({.name = "consolidation",
@@ -147,15 +164,33 @@ TEST_CASE("consolidation: a fill under its own weight") {
            factor < 0.15  ? 0.0005
            : factor < 0.3 ? 0.0015
                           : 0.002);
-  double lowest = 0;
-  for (std::size_t a = 0; a < s.model().particles.size(); ++a)
-    lowest = std::min(lowest, s.model().particles.displacement(a).y());
   const double last = buoyant * height * height / (2 * modulus);
   expect({.name = "consolidation",
           .settings = {},
           .quantity = "settlement at T = 0.848 over the last one",
           .reference = "Terzaghi's degree of consolidation",
           .resolution = metres(0.2)},
-         std::abs(-lowest / last - series(0, 0.848, true)), 0.003);
-  CHECK(std::abs(s.consolidation()->imbalance()) < 1e-8 * s.consolidation()->drained());
+         std::abs(settlement(s) / last - own_weight_degree(0.848)), 0.003);
+}
+
+TEST_CASE("consolidation: two layers") {
+  const TwoLayers exact({2, 1e-6, 24e6}, {2, 1e-9, 12e6}, 9810);
+  Simulation s(scene("two_layers"));
+  measure_at_frames(s, [&](const Simulation& now) {
+    expect({.name = "two_layers",
+            .settings = {},
+            .quantity = fmt::format("excess pore pressure after {:g} s, relative L2", now.time()),
+            .reference = "series of eigenfunctions of both layers",
+            .resolution = metres(0.2)},
+           pressure_error(now, 4, 10e3, [&](double depth) { return exact.pressure(4 * depth, now.time()); }),
+           0.005);
+  });
+  const double last = 10e3 * (2 / 24e6 + 2 / 12e6);
+  const double above = 10e3 * 0.1 / 24e6;  // half a spacing of drained silt above the top particles
+  expect({.name = "two_layers",
+          .settings = {},
+          .quantity = "settlement at the end over the last one",
+          .reference = "series of eigenfunctions of both layers",
+          .resolution = metres(0.2)},
+         std::abs((settlement(s) + above) / last - exact.degree(s.time())), 0.005);
 }

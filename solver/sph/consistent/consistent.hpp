@@ -20,7 +20,7 @@ double bulk_viscosity_of(const FormulationCase& formulation, const Model& model)
 /// of the strain-rate operator and conserve momentum and energy:
 ///
 ///   rho0_a a_a = sum_b V_b (P_a L_a + P_b L_b) grad W_ab  +  J_a F_a^-T L_a sum_b V_b (p_b - p_a) grad W_ab
-///   +  rho0_a g dF_a/dt    = sum_b V_b (v_b - v_a) (x) L_a grad W_ab,       P = J sigma' F^-T
+///   +  rho0_a g dF_a/dt    = sum_b V_b (v_b - v_a) (x) L_a grad W_ab,       P = J (sigma' + p_e I) F^-T
 ///
 /// In disorder, L_a grad W_ab becomes L_a grad W_ab + (kappa_b - kappa_a) F_ab: see closed_gradients.hpp.
 ///
@@ -36,6 +36,7 @@ class ConsistentDynamics final : public Dynamics {
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
+  void carry_excess(std::span<const double> excess) override { arrays_.state.excess = excess.data(); }
   void visit(StateArchive& state) override;
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
 

@@ -34,7 +34,9 @@ struct TileStep {
         shear_rate(c.flow.viscosity ? c.flow.shear_rate + tile.first : nullptr),
         hoop(c.fluxes.hoop + (has_hoop<Space> ? tile.first : 0)),
         bears(c.flow.bears + (c.flow.viscosity ? tile.first : 0)),
+        excess((c.state.excess ? c.state.excess : c.reference.fill) + tile.first),
         mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
+        excess_share(c.state.excess ? 1 : 0),
         mu(c.control.viscosity),
         length_squared(c.flow.length_squared),
         weight(c.flow.weight),
@@ -99,12 +101,12 @@ struct TileStep {
     return plus_strain(matrix_at<Space>(rate, i), k, matrix_of(f));
   }
 
-  /// P, and the flux fill P L less the zero-energy control, of the stress `s`.
+  /// P, and the flux fill P L less the zero-energy control, of the effective stress `s` and p_e.
   [[gnu::always_inline]] void write_flux(std::int32_t i, const Stress& s, const Gradient& f, double rho,
                                          double modulus, double dilatation, const MatrixOf<Space>& control,
                                          double viscosity_of_control) const {
     const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * rho), dilatation);
-    const Gradient p = first_piola(s.plus_isotropic(q), f);
+    const Gradient p = first_piola(s.plus_isotropic(q).plus_isotropic(excess_share * excess[i]), f);
     put(piola, i, matrix_of(p));
     const MatrixOf<Space> of_fill = product(matrix_of(p), scaled(fill[i], matrix_at<Space>(correction, i)));
     const MatrixOf<Space> net = less(of_fill, viscosity_of_control, control);
@@ -132,7 +134,8 @@ struct TileStep {
   std::int32_t particle;  ///< the tile's first
   const double *reference_density, *fill, *radius;
   double *stress, *density, *yields, *viscosity, *shear_rate, *hoop;
-  const double *bears, *mass;
+  const double *bears, *excess, *mass;
+  double excess_share;  ///< 0: the soil carries none, and `excess` is any array
   double mu, length_squared, weight, bulk_length, dt, half;
   const double *velocity[Space::dim], *rate[gradients], *correction[matrix];
   double *piola[matrix], *deformation[gradients], *flux[matrix];

@@ -2,10 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <memory>
-#include <numbers>
 
 #include "solver/case/case_file.hpp"
+#include "solver/reference/exact/consolidation.hpp"
 
 using namespace porosph;
 
@@ -44,7 +45,7 @@ struct Column {
   explicit Column(const Case& scene_) : scene(scene_), model(build_model(scene)) {
     dynamics = make_dynamics(scene.formulation, model);
     const double dt = 0.9 * model.smoothing_length / model.wave_speed;
-    water = std::make_unique<Consolidation>(scene, model, *dynamics, dt);
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, std::span<const LoadedParticles>(), dt);
   }
   double modulus() const { return model.soils[0].constrained_modulus(); }
   double buoyant() const { return scene.soils[0].unit_weight_saturated - scene.water.unit_weight; }
@@ -69,23 +70,10 @@ struct Column {
     double error = 0, size = 0;
     for (std::size_t a = 0; a < model.particles.size(); ++a) {
       const double depth = 1 - model.particles.start[a].y() / height;
-      double exact = 0;
-      for (int m = 0; m < 200; ++m) {
-        const double root = (2 * m + 1) * std::numbers::pi / 2;
-        exact +=
-            (m % 2 == 0 ? 2 : -2) / (root * root) * std::sin(root * depth) * std::exp(-root * root * factor);
-      }
+      const double exact = own_weight_pressure(depth, factor);
       error += std::pow(excess(a) - exact, 2), size += exact * exact;
     }
     return std::sqrt(error / size);
-  }
-  double degree(double factor) const {
-    double left = 0;
-    for (int m = 0; m < 200; ++m) {
-      const double root = (2 * m + 1) * std::numbers::pi / 2;
-      left += (m % 2 == 0 ? 4 : -4) / (root * root * root) * std::exp(-root * root * factor);
-    }
-    return 1 - left;
   }
 
   Case scene;
@@ -105,7 +93,7 @@ TEST_CASE("a column consolidates under its weight as Terzaghi has it", "[water][
     c.run_to(c.time_of(factor));
     CAPTURE(static_cast<int>(arrangement), factor, c.error(factor), c.water->counts().soil_sweeps);
     CHECK(c.error(factor) < 0.006);
-    CHECK(c.settlement() / last == Approx(c.degree(factor)).margin(0.004));
+    CHECK(c.settlement() / last == Approx(own_weight_degree(factor)).margin(0.004));
     CHECK(std::abs(c.water->imbalance()) < 1e-8 * c.water->drained());
   }
 }
@@ -133,5 +121,233 @@ TEST_CASE("compressible water takes up Skempton's part of a load at once", "[wat
   for (std::size_t a = 0; a < c.model.particles.size(); ++a) {
     const double depth = 1 - c.model.particles.start[a].y() / height;
     if (depth > 0.2) CHECK(c.excess(a) == Approx(part * depth).margin(0.01));
+  }
+}
+
+namespace {
+
+/// The right half of a strip load of 4 m on soil without weight that keeps its water: 40 by 20 particles, or
+/// more.
+Case strip(double stabilisation, double spacing) {
+  Case scene;
+  SoilCase soil;
+  soil.name = "clay";
+  soil.polygon = {{0, 0}, {16, 0}, {16, 8}, {0, 8}};
+  soil.youngs_modulus = 20e6;
+  soil.poissons_ratio = 0.3;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
+  scene.soils = {soil};
+  scene.water.mode = WaterMode::undrained;
+  scene.water.stretches = {{-never, never, 8}};
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.water.coupling.stabilisation = stabilisation;
+  scene.water.coupling.first_step = 1;
+  scene.particles.spacing = spacing;
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.particles.smoothing_ratio = 1;
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 9}},
+                      {BoundaryKind::roller, {16, 0}, {16, 9}},
+                      {BoundaryKind::fixed, {0, 0}, {16, 0}}};
+  LoadCase load;
+  load.name = "strip", load.from = {0, 8}, load.to = {2, 8}, load.pressure = load.pressure_to = 10e3;
+  scene.loads = {load};
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.formulation.zero_energy_control = 0.05;
+  return scene;
+}
+
+struct Loaded {
+  explicit Loaded(const Case& scene_) : scene(scene_), model(build_model(scene)) {
+    loads = surface_loads(scene, model);
+    dynamics = make_dynamics(scene.formulation, model);
+    const double dt = 0.9 * model.smoothing_length / model.wave_speed;
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, loads, dt);
+  }
+  /// Of the excess pressures below the third row, what alternates from row to row over all: sixth
+  /// differences, in which alternation alone stays as it is.
+  double alternation() const {
+    const Particles& p = model.particles;
+    std::map<std::pair<long, long>, double> at;
+    const auto place = [&](std::size_t a) {
+      return std::pair{std::lround(p.start[a].x() / model.spacing - 0.5),
+                       std::lround(p.start[a].y() / model.spacing - 0.5)};
+    };
+    for (std::size_t a = 0; a < p.size(); ++a) at[place(a)] = water->head()[a];
+    double alternates = 0, all = 0;
+    for (const auto& [cell, h] : at) {
+      const auto [i, j] = cell;
+      if (!at.contains({i, j - 3}) || !at.contains({i, j + 3})) continue;
+      const auto beside = [&, i = i, j = j](int rows) { return at.at({i, j - rows}) + at.at({i, j + rows}); };
+      alternates += std::pow((20 * h - 15 * beside(1) + 6 * beside(2) - beside(3)) / 64, 2), all += h * h;
+    }
+    return std::sqrt(alternates / all);
+  }
+  double settlement() const {
+    double lowest = 0;
+    for (std::size_t a = 0; a < model.particles.size(); ++a)
+      lowest = std::min(lowest, model.particles.displacement(a).y());
+    return -lowest;
+  }
+
+  Case scene;
+  Model model;
+  std::vector<LoadedParticles> loads;
+  std::unique_ptr<Dynamics> dynamics;
+  std::unique_ptr<Consolidation> water;
+};
+
+}  // namespace
+
+TEST_CASE("undrained pressure under a strip load does not alternate", "[water][undrained]") {
+  for (const double spacing : {0.4, 0.2}) {
+    Loaded free(strip(0, spacing)), held(strip(0.25, spacing));
+    free.water->advance(0, 1);
+    held.water->advance(0, 1);
+    CAPTURE(spacing, free.alternation(), held.alternation(), free.settlement(), held.settlement());
+    CAPTURE(free.water->counts().soil_sweeps, held.water->counts().soil_sweeps);
+    CHECK(held.alternation() < 0.45 * free.alternation());
+    CHECK(held.alternation() < (spacing > 0.3 ? 0.01 : 0.005));
+    CHECK(held.settlement() == Approx(free.settlement()).epsilon(1e-3));
+  }
+}
+
+namespace {
+
+/// A quarter of a block between smooth plates that keeps its water, pressed by up to 20 kPa over 1 s. It has
+/// no effective stress at the start.
+Case block(LawKind law) {
+  Case scene;
+  SoilCase soil;
+  soil.name = "clay";
+  soil.polygon = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  soil.youngs_modulus = 20e6;
+  soil.poissons_ratio = 0.3;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
+  soil.law = law;
+  if (law == LawKind::tresca)
+    soil.strength.undrained_strength = 8e3;
+  else
+    soil.strength.cohesion = 10e3, soil.strength.friction_angle = 30;
+  scene.soils = {soil};
+  scene.water.mode = WaterMode::undrained;
+  scene.water.stretches = {{-never, never, 2}};
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.water.coupling.first_step = 0.02;
+  scene.particles.spacing = 0.2;
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.particles.smoothing_ratio = 1;
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 3}}, {BoundaryKind::roller, {0, 0}, {3, 0}}};
+  LoadCase load;
+  load.name = "plate", load.from = {0, 2}, load.to = {2, 2}, load.pressure = load.pressure_to = 20e3;
+  load.over_time = {{0, 0}, {1, 1}};
+  scene.loads = {load};
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.formulation.zero_energy_control = 0.05;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("soil that keeps its water fails at its undrained strength", "[water][undrained]") {
+  // q = 2 s_u; by effective stress s_u = c cos(phi) + p'_0 sin(phi), half of what drained soil bears.
+  const LawKind law = GENERATE(LawKind::mohr_coulomb, LawKind::drucker_prager, LawKind::tresca);
+  const double strength = law == LawKind::tresca ? 16e3 : 2 * 10e3 * std::sqrt(0.75);
+  Loaded b(block(law));
+  double now = 0, pressure = 0;
+  const auto load_until_failure = [&] {
+    while (now < 1) {
+      now = b.water->advance(now, 1);
+      pressure = 0;
+      for (const double h : b.water->head()) pressure += h * b.scene.water.unit_weight / 100;
+      if (now * 20e3 < 0.9 * strength) CHECK(pressure == Approx(now * 20e3 / 2).epsilon(0.01));
+    }
+  };
+  CHECK_THROWS_WITH(load_until_failure(),
+                    Catch::Contains("does not come to rest") && Catch::Contains("it fails"));
+  CAPTURE(static_cast<int>(law), now);
+  CHECK(now * 20e3 == Approx(strength).margin(0.02 * 20e3));
+}
+
+namespace {
+
+constexpr double width = 4, thickness = 2, force = 20e3;  // a of Mandel [m], height of the quarter, F [N/m]
+
+/// What Mandel's rigid plate presses with: the exact solution gives it [Pa].
+class PlatePressure final : public Load {
+ public:
+  PlatePressure(double nu, double unit) : exact_(nu), unit_(unit) {}
+  Vec2 traction(const Vec2& place, const Vec2& normal, double time) const override {
+    if (time != time_) known_.clear(), time_ = time;
+    auto [at, is_new] = known_.try_emplace(place.x(), 1);
+    if (is_new && time / unit_ > 1e-4) at->second = exact_.vertical_stress(place.x() / width, time / unit_);
+    return -force / width * at->second * normal;
+  }
+
+ private:
+  Mandel exact_;
+  double unit_;
+  mutable double time_ = -1;
+  mutable std::map<double, double> known_;
+};
+
+/// A quarter of Mandel's specimen.
+Case specimen(int columns, double nu) {
+  Case scene;
+  SoilCase soil;
+  soil.name = "clay";
+  soil.polygon = {{0, 0}, {width, 0}, {width, thickness}, {0, thickness}};
+  soil.youngs_modulus = 100e6;
+  soil.poissons_ratio = nu;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
+  soil.permeability = {1e-9, 1e-9};
+  scene.soils = {soil};
+  scene.water.mode = WaterMode::coupled;
+  scene.water.stretches = {{-never, never, thickness}};
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.water.faces = {{.kind = FaceKind::closed, .from = {0, thickness}, .to = {width, thickness}}};
+  scene.particles.spacing = width / columns;
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.particles.smoothing_ratio = 1;
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, thickness + 1}},
+                      {BoundaryKind::roller, {0, 0}, {width + 1, 0}}};
+  LoadCase load;
+  load.name = "plate", load.from = {0, thickness}, load.to = {width, thickness};
+  load.pressure = load.pressure_to = force / width;
+  scene.loads = {load};
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.formulation.zero_energy_control = 0.05;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("pressure rises in the middle of Mandel's specimen", "[water][consolidation]") {
+  constexpr double nu = 0.2;
+  const Mandel exact(nu);
+  Loaded m(specimen(20, nu));
+  const double modulus = m.model.soils[0].constrained_modulus();
+  const double unit = width * width * m.scene.water.unit_weight / (1e-9 * modulus);
+  for (LoadedParticles& l : m.loads) l.load = std::make_shared<PlatePressure>(nu, unit);
+  const Particles& p = m.model.particles;
+  double now = 0;
+  for (const double factor : {0.02, 0.05, 0.1, 0.5}) {
+    while (now < factor * unit) now = m.water->advance(now, factor * unit);
+    double worst = 0, highest = 0, low = 1, high = 0;
+    for (std::size_t a = 0; a < p.size(); ++a) {
+      const double at = p.start[a].x() / width;
+      const double found = m.scene.water.unit_weight * m.water->head()[a] / (force / width);
+      worst = std::max(worst, std::abs(found - exact.pressure(at, factor)) * 2);
+      highest = std::max(highest, 2 * found);
+      if (p.start[a].y() < thickness - m.model.spacing) continue;
+      const double share = p.start[a].y() / thickness;
+      const double strain =
+          -p.displacement(a).y() / (share * thickness) * 2 * m.model.soils[0].shear_modulus() * width / force;
+      low = std::min(low, strain), high = std::max(high, strain);
+    }
+    CAPTURE(factor, worst, highest, low, high, exact.strain(factor), m.water->counts().soil_sweeps);
+    CHECK(worst < 0.006);
+    CHECK(highest == Approx(2 * exact.pressure(0, factor)).margin(0.006));
+    CHECK(low == Approx(exact.strain(factor)).epsilon(0.01));  // so the plate stays plane
+    CHECK(high == Approx(exact.strain(factor)).epsilon(0.01));
   }
 }

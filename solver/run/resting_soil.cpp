@@ -1,0 +1,100 @@
+#include "solver/run/resting_soil.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/boundary/load.hpp"
+#include "solver/run/leapfrog.hpp"
+#include "solver/space/parallel.hpp"
+
+namespace porosph {
+
+RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads, double dt)
+    : model_(model), dynamics_(dynamics), loads_(loads), dt_(dt), excess_(model.particles.size(), 0) {
+  const Particles& p = model.particles;
+  for (std::size_t a = 0; a < p.size(); ++a) start_volume_.push_back(p.volume(a));
+  accelerations_.resize(p.size());
+  Vec2 low = p.position.front(), high = low;
+  for (const Vec2& x : p.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  extent_ = (high - low).maxCoeff();
+  dynamics.carry_excess(excess_);
+}
+
+int RestingSoil::crossing() const {
+  constexpr double margin = 1.2;
+  return static_cast<int>(std::ceil(margin * extent_ / model_.spacing));
+}
+
+/// Soil that has yielded may get another density with a new reference, which is no volume that it gains.
+void RestingSoil::prepare() {
+  const std::int64_t refreshes = dynamics_.counts.refreshes;
+  const std::vector<double> density = model_.particles.density;
+  dynamics_.prepare();
+  if (dynamics_.counts.refreshes == refreshes) return;
+  const Particles& p = model_.particles;
+  for (std::size_t a = 0; a < p.size(); ++a) start_volume_[a] += p.volume(a) - p.mass[a] / density[a];
+}
+
+void RestingSoil::relax(int sweeps, double time) {
+  Particles& p = model_.particles;
+  for (int k = 0; k <= sweeps; ++k) {
+    prepare();
+    dynamics_.accelerations(accelerations_);
+    add_loads(model_.loads, p, time, accelerations_);
+    add_surface_loads(loads_, p, time, accelerations_);
+    if (!before_.empty()) relaxation_.measure(p, before_, accelerations_, dt_);
+    before_.clear();
+    if (k == sweeps) return;
+    if (sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
+    const Kick kick = full_kick(relaxation_.damping, dt_);
+#pragma omp parallel for schedule(static)
+    for (std::size_t a = 0; a < p.size(); ++a) {
+      p.velocity[a] = kick(p.velocity[a], accelerations_[a]);
+      p.position[a] += dt_ * p.velocity[a];
+    }
+    model_.pore_water->follow(model_.water, p, 0, p.size());
+    dynamics_.strain(dt_);
+    ++sweeps_;
+  }
+}
+
+/// As a step of its own, after which the soil stands still: the fluxes are written once more, without the
+/// viscous ones.
+void RestingSoil::move_to(std::span<const Vec2> places) {
+  Particles& p = model_.particles;
+  prepare();
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    p.velocity[a] = (places[a] - p.position[a]) / dt_;
+    p.position[a] = places[a];
+  }
+  model_.pore_water->follow(model_.water, p, 0, p.size());
+  dynamics_.strain(dt_);
+  std::ranges::fill(p.velocity, Vec2::Zero());
+  dynamics_.strain(0);
+  before_.clear();
+  ++sweeps_;
+}
+
+double RestingSoil::out_of_balance() const {
+  const Particles& p = model_.particles;
+  const double squares = deterministic_sum(
+      p.size(), [&](std::size_t a) { return (p.density[a] * accelerations_[a]).squaredNorm(); });
+  return std::sqrt(squares / static_cast<double>(p.size())) * extent_;
+}
+
+std::size_t RestingSoil::fastest() const {
+  const auto& v = model_.particles.velocity;
+  return std::ranges::max_element(v, {}, [](const Vec2& x) { return x.squaredNorm(); }) - v.begin();
+}
+
+void RestingSoil::visit(StateArchive& state) {
+  state.array("excess_pressure", excess_);
+  state.array("volume_at_start", start_volume_);
+  state.array("accelerations_at_rest", accelerations_);
+  state.value("soil_sweeps", sweeps_);
+  state.value("flow_relaxation_stiffness", relaxation_.stiffness);
+  state.value("flow_relaxation_inertia", relaxation_.inertia);
+  state.value("flow_relaxation_damping", relaxation_.damping);
+}
+
+}  // namespace porosph
