@@ -124,6 +124,14 @@ TEST_CASE("what broke a run is named by what the case has wrong") {
   CHECK_THAT(usual_cause_of_breakdown(fast), Contains("time.courant = 1.5"));
   CHECK_THAT(usual_cause_of_breakdown(ground(15e6, 20e3)),
              Contains("youngs_modulus") && Contains("known to be stable"));
+  Case contrast = ground(15e6, 20e3);
+  contrast.soils.push_back(contrast.soils[0]);
+  contrast.soils[1].youngs_modulus = 15e9;
+  contrast.time.courant = 0.9;
+  CHECK_THAT(usual_cause_of_breakdown(contrast),
+             Contains("1e+03 times as stiff") && Contains("0.8 in place of 0.9"));
+  contrast.time.courant = 0.8;
+  CHECK_THAT(usual_cause_of_breakdown(contrast), Contains("known to be stable"));
   Case suction = ground(15e6, 20e3, 11);
   suction.formulation.motion = Motion::conventional;
   CHECK_THAT(usual_cause_of_breakdown(suction), Contains("conventional") && Contains("suction"));
