@@ -199,18 +199,93 @@ class Interval {
   Clock::time_point start_ = Clock::now();
 };
 
+/// What a run writes as it goes, and how long it has taken.
+class Recorder {
+ public:
+  using Clock = std::chrono::steady_clock;
+  Recorder(Results& results, StagedRun& stages, double checkpoint_every, Clock::time_point start,
+           double seconds_before)
+      : results_(results),
+        stages_(stages),
+        since_checkpoint_(checkpoint_every),
+        start_(start),
+        seconds_before_(seconds_before) {}
+
+  /// Since the run began, with what came before a resumption [s].
+  double wall_seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count() + seconds_before_;
+  }
+  StateBytes state(const RunProgress& progress) const {
+    return state_bytes({progress, results_.written(), wall_seconds()}, stages_);
+  }
+  RunWatch watch(Progress& progress) {
+    return {.frame = [&](Simulation& s) { results_.frame(s); },
+            .history = [&](const auto& row) { results_.row(row); },
+            .progress = [&](const Simulation& s) { progress.show(s); },
+            .interrupted = is_interrupted,
+            .checkpoint = [&](Simulation& s, RunProgress& p, bool ending) { keep(s, p, ending); }};
+  }
+
+ private:
+  void keep(const Simulation& s, const RunProgress& progress, bool ending) {
+    if (!ending && !since_checkpoint_.over()) return;
+    try {
+      results_.checkpoint(state(progress));
+    } catch (const WriteError& error) {
+      if (s.step() < s.last_step()) throw;  // a run that is complete has its results without it
+      std::cerr << fmt::format("porosph: warning: {}; the run cannot be resumed to a later end\n",
+                               error.what());
+    }
+    since_checkpoint_.restart();
+  }
+
+  Results& results_;
+  StagedRun& stages_;
+  Interval since_checkpoint_;
+  Clock::time_point start_;
+  double seconds_before_;
+};
+
+/// Carries the run through its stages; `so_far` is where the last one got.
+RunOutcome run_stages(StagedRun& stages, Recorder& recorder, bool quiet, RunProgress& so_far) {
+  while (true) {
+    Progress progress(quiet, stages.simulation());
+    const RunOutcome outcome = run(stages.simulation(), recorder.watch(progress), so_far);
+    progress.finish();
+    if (outcome.status == RunStatus::interrupted) return outcome;
+    stages.end(outcome);
+    if (!stages.goes_on()) return outcome;
+    stages.go_on();
+    so_far = {.stepping_seconds = outcome.stepping_seconds};
+    if (!quiet) tell_stage(stages);
+  }
+}
+
+/// Says what is doubtful, and returns it.
+std::vector<std::string> doubts(const Case& scene, StagedRun& stages) {
+  std::vector<std::string> warnings = warnings_of(stages.simulation().model(), stages.simulation().scene());
+  warn(warnings);
+  warn_of_smaller_steps(stages.simulation());
+  const std::vector<std::string> of_case = warnings_of(scene);
+  warnings.insert(warnings.begin(), of_case.begin(), of_case.end());
+  return warnings;
+}
+
+/// Before the folder is locked: what cannot be computed at all.
+void check_possible(const Options& options) {
+  const Case scene = read_case(options.case_file, options.overrides);
+  check_memory(scene);
+  require_fem(scene);
+}
+
 }  // namespace
 
 int run_command(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return Exit::done;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Recorder::Clock::now();
   catch_interruptions();
-  {
-    const Case scene = read_case(options->case_file, options->overrides);
-    check_memory(scene);
-    require_fem(scene);
-  }
+  check_possible(*options);
   const FolderLock lock(options->folder);
   const Task task = read_task(*options);
   if (!options->force) check_owner(options->folder, task.text_in_folder(), options->resume);
@@ -219,65 +294,23 @@ int run_command(const Arguments& arguments) {
       say(stdout, fmt::format("nothing to resume in {}: {}", options->folder.string(), tell(*done)));
     return exit_of(done->status);
   }
-  std::vector<std::string> warnings = warnings_of(task.scene);
-  warn(warnings);
+  warn(warnings_of(task.scene));
   const auto start_state = state_to_start_from(*options, task);
   StagedRun stages(task.scene, start_state ? &*start_state : nullptr);
-  const std::vector<std::string> of_particles =
-      warnings_of(stages.simulation().model(), stages.simulation().scene());
-  warn(of_particles);
-  warnings.insert(warnings.end(), of_particles.begin(), of_particles.end());
-  warn_of_smaller_steps(stages.simulation());
+  const std::vector<std::string> warnings = doubts(task.scene, stages);
   use_threads(options->threads, stages.simulation().model().particles.size());
   const auto left_off = options->resume ? restore(options->folder, task, stages) : std::optional<LeftOff>();
   Results results = open_results(*options, task.scene, stages.simulation(), left_off);
-  if (left_off && task.earlier) {
-    extend_run(options->folder, task.case_text, state_bytes(*left_off, stages));
-  }
+  if (left_off && task.earlier) extend_run(options->folder, task.case_text, state_bytes(*left_off, stages));
   if (!options->quiet) tell_beginning(*options, stages, left_off.has_value());
 
-  const auto wall_seconds = [&] {
-    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
-    return now.count() + (left_off ? left_off->wall_seconds : 0);
-  };
-  Interval since_checkpoint(options->checkpoint_every);
-  const auto state_with = [&](const RunProgress& p) {
-    return state_bytes({p, results.written(), wall_seconds()}, stages);
-  };
-  const auto keep = [&](Simulation& s, RunProgress& p, bool ending) {
-    if (!ending && !since_checkpoint.over()) return;
-    try {
-      results.checkpoint(state_with(p));
-    } catch (const WriteError& error) {
-      if (s.step() < s.last_step()) throw;  // a run that is complete has its results without it
-      std::cerr << fmt::format("porosph: warning: {}; the run cannot be resumed to a later end\n",
-                               error.what());
-    }
-    since_checkpoint.restart();
-  };
-  RunOutcome outcome;
+  Recorder recorder(results, stages, options->checkpoint_every, start, left_off ? left_off->wall_seconds : 0);
   RunProgress so_far = left_off ? left_off->progress : RunProgress{};
-  while (true) {
-    Progress progress(options->quiet, stages.simulation());
-    outcome = run(stages.simulation(),
-                  {.frame = [&](Simulation& s) { results.frame(s); },
-                   .history = [&](const auto& row) { results.row(row); },
-                   .progress = [&](const Simulation& s) { progress.show(s); },
-                   .interrupted = is_interrupted,
-                   .checkpoint = keep},
-                  so_far);
-    progress.finish();
-    if (outcome.status == RunStatus::interrupted) break;
-    stages.end(outcome);
-    if (!stages.goes_on()) break;
-    stages.go_on();
-    so_far = {.stepping_seconds = outcome.stepping_seconds};
-    if (!options->quiet) tell_stage(stages);
-  }
-  Summary summary = summarise(stages, outcome, wall_seconds());
+  const RunOutcome outcome = run_stages(stages, recorder, options->quiet, so_far);
+  Summary summary = summarise(stages, outcome, recorder.wall_seconds());
   summary.finite_elements = check_by_fem(stages.simulation(), summary);
   summary.warnings = warnings;
-  results.finish(summary, state_with(so_far));
+  results.finish(summary, recorder.state(so_far));
   if (!options->quiet) say(stdout, tell(summary));
   warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)
