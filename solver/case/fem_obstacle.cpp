@@ -25,8 +25,7 @@ std::string fem_obstacle(const Case& scene) {
   if (!scene.loading.gravity_applied && scene.loads.empty())
     return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";
-  if (!scene.water.level_over_time.empty() || scene.water.couples())
-    return "the water moves";
+  if (!scene.water.level_over_time.empty() || scene.water.couples()) return "the water moves";
   return "";
 }
 

@@ -124,7 +124,8 @@ Json to_json(const Summary& summary) {
     Json& energy = json["energy_budget"];
     put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
     put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
-    put(energy, "contact", e.contact), put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
+    put(energy, "contact", e.contact), put(energy, "stress_diffusion", e.diffusion),
+        put(energy, "bulk_viscosity", e.bulk_viscosity);
     put(energy, "unaccounted", e.unaccounted);
   }
   if (summary.seepage) {

@@ -10,16 +10,16 @@
 
 namespace porosph {
 
-/// With hardly a neighbour a particle is no part of a continuum: its velocity gradient is noise, and stress made
-/// of that throws it about, the further the stiffer the soil. So a loose particle bears no stress. Its
+/// With hardly a neighbour a particle is no part of a continuum: its velocity gradient is noise, and stress
+/// made of that throws it about, the further the stiffer the soil. So a loose particle bears no stress. Its
 /// neighbours carry it along by the zero-energy control, and walls stop and hold it.
 class LooseParticles {
  public:
   static constexpr int fewest_neighbours = 7;  ///< of the soil, that a particle of the body has
 
   /// Those of a new reference, by how many particles of the soil each has as neighbours, and whether it has
-  /// ghosts among them. None before soil flows, nor of a law whose stiffness follows its state, which cannot be
-  /// without stress.
+  /// ghosts among them. None before soil flows, nor of a law whose stiffness follows its state, which cannot
+  /// be without stress.
   void take(const Model& model, std::span<const std::int32_t> neighbours,
             std::span<const std::uint8_t> at_walls, bool flows);
 
