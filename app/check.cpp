@@ -70,6 +70,8 @@ void print_settings(const Case& scene) {
 
 /// c_v = k M / gamma_w, and how long a layer of each soil takes that drains on one side (Terzaghi).
 void print_consolidation(const Simulation& s) {
+  if (s.scene().water.mode == WaterMode::undrained)
+    return print("consolidation", "none: the water stays where it is");
   constexpr double t50 = 0.19673, t90 = 0.84809;
   for (std::size_t i = 0; i < s.model().soils.size(); ++i) {
     const SoilCase& soil = s.scene().soils[i];

@@ -111,6 +111,12 @@ void check_water(const Case& scene, const Options& o) {
     throw UsageError(
         "safety: limit equilibrium knows no footing ([[footing]]); --method strength-reduction does");
   if (!scene.water.flows()) return;
+  if (scene.water.couples())
+    throw UsageError(
+        fmt::format("safety: water.mode = \"{}\" is not possible: the factor of safety is that of soil at "
+                    "rest in still or "
+                    "steady water; give undrained clay the law \"tresca\" in still water",
+                    name(scene.water.mode)));
   if (!o.by_particles())
     throw UsageError(
         "safety: limit equilibrium is for still water, but water.mode is \"steady\"; "

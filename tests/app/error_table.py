@@ -228,6 +228,9 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without strength", "safety case.toml", {}),
     ("a factor of safety of level ground", "safety level.toml --method limit-equilibrium", {
         "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')}),
+    ("a factor of safety of soil that keeps its water", "safety undrained.toml", {
+        "undrained.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
+        + '[water]\nlevel = 3\nmode = "undrained"\n'}),
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
