@@ -79,7 +79,7 @@ fs::path taken(const fs::path& folder, const std::string& case_text, const std::
 std::string case_in_frames(Case scene) {
   scene.time.step = TimeCase{}.step;
   std::string text = write_case(scene);
-  const auto at = text.find("\nend = ", text.find("[time]"));
+  const auto at = text.find("\nend = ", text.find("\n[time]\n"));
   return text.replace(at + 1, text.find('\n', at + 1) - at - 1, "# end: see the run's case.toml");
 }
 

@@ -218,6 +218,17 @@ double circumference(const SoilCase& soil) {
   return sum;
 }
 
+/// Cells that a slope cuts break down at 0.9 in a layered embankment of this contrast, and not at 0.8.
+constexpr double large_contrast = 1000, safe_courant = 0.8;
+
+/// Of the stiffest soil over the softest.
+double stiffness_contrast(const Case& scene) {
+  double least = never, most = 0;
+  for (const SoilCase& soil : scene.soils)
+    least = std::min(least, soil.youngs_modulus), most = std::max(most, soil.youngs_modulus);
+  return most / least;
+}
+
 }  // namespace
 
 std::vector<std::string> doubtful_values(const Case& scene) {
@@ -250,21 +261,6 @@ Settlement settlement_by_own_weight(const Case& scene) {
   }
   return worst;
 }
-
-namespace {
-
-/// Cells that a slope cuts break down at 0.9 in a layered embankment of this contrast, and not at 0.8.
-constexpr double large_contrast = 1000, safe_courant = 0.8;
-
-/// Of the stiffest soil over the softest.
-double stiffness_contrast(const Case& scene) {
-  double least = never, most = 0;
-  for (const SoilCase& soil : scene.soils)
-    least = std::min(least, soil.youngs_modulus), most = std::max(most, soil.youngs_modulus);
-  return most / least;
-}
-
-}  // namespace
 
 std::string usual_cause_of_breakdown(const Case& scene) {
   if (const Settlement s = settlement_by_own_weight(scene); s.compression > too_soft)

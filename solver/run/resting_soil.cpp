@@ -25,7 +25,8 @@ int RestingSoil::crossing() const {
   return static_cast<int>(std::ceil(margin * extent_ / model_.spacing));
 }
 
-/// Soil that has yielded may get another density with a new reference, which is no volume that it gains.
+/// Soil that has yielded may get another density when the reference is rebuilt. That is not a change of
+/// volume.
 void RestingSoil::prepare() {
   const std::int64_t refreshes = dynamics_.counts.refreshes;
   const std::vector<double> density = model_.particles.density;

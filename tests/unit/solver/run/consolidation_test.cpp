@@ -126,33 +126,39 @@ TEST_CASE("compressible water takes up Skempton's part of a load at once", "[wat
 
 namespace {
 
-/// The right half of a strip load of 4 m on soil without weight that keeps its water: 40 by 20 particles, or
-/// more.
-Case strip(double stabilisation, double spacing) {
+/// A rectangle of soil as heavy as water, so that loads alone strain it, in a lattice with h = dx.
+Case weightless(double length, double depth, double youngs_modulus, double poissons_ratio) {
   Case scene;
   SoilCase soil;
   soil.name = "clay";
-  soil.polygon = {{0, 0}, {16, 0}, {16, 8}, {0, 8}};
-  soil.youngs_modulus = 20e6;
-  soil.poissons_ratio = 0.3;
+  soil.polygon = {{0, 0}, {length, 0}, {length, depth}, {0, depth}};
+  soil.youngs_modulus = youngs_modulus;
+  soil.poissons_ratio = poissons_ratio;
   soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
   scene.soils = {soil};
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.particles.smoothing_ratio = 1;
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.formulation.zero_energy_control = 0.05;
+  return scene;
+}
+
+/// The right half of a strip load of 4 m on soil without weight that keeps its water: 40 by 20 particles, or
+/// more.
+Case strip(double stabilisation, double spacing) {
+  Case scene = weightless(16, 8, 20e6, 0.3);
   scene.water.mode = WaterMode::undrained;
   scene.water.stretches = {{-never, never, 8}};
-  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
   scene.water.coupling.stabilisation = stabilisation;
   scene.water.coupling.first_step = 1;
   scene.particles.spacing = spacing;
-  scene.particles.arrangement = Arrangement::lattice;
-  scene.particles.smoothing_ratio = 1;
   scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 9}},
                       {BoundaryKind::roller, {16, 0}, {16, 9}},
                       {BoundaryKind::fixed, {0, 0}, {16, 0}}};
   LoadCase load;
   load.name = "strip", load.from = {0, 8}, load.to = {2, 8}, load.pressure = load.pressure_to = 10e3;
   scene.loads = {load};
-  scene.formulation = default_formulation(Motion::consistent);
-  scene.formulation.zero_energy_control = 0.05;
   return scene;
 }
 
@@ -216,33 +222,22 @@ namespace {
 /// A quarter of a block between smooth plates that keeps its water, pressed by up to 20 kPa over 1 s. It has
 /// no effective stress at the start.
 Case block(LawKind law) {
-  Case scene;
-  SoilCase soil;
-  soil.name = "clay";
-  soil.polygon = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-  soil.youngs_modulus = 20e6;
-  soil.poissons_ratio = 0.3;
-  soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
+  Case scene = weightless(2, 2, 20e6, 0.3);
+  SoilCase& soil = scene.soils[0];
   soil.law = law;
   if (law == LawKind::tresca)
     soil.strength.undrained_strength = 8e3;
   else
     soil.strength.cohesion = 10e3, soil.strength.friction_angle = 30;
-  scene.soils = {soil};
   scene.water.mode = WaterMode::undrained;
   scene.water.stretches = {{-never, never, 2}};
-  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
   scene.water.coupling.first_step = 0.02;
   scene.particles.spacing = 0.2;
-  scene.particles.arrangement = Arrangement::lattice;
-  scene.particles.smoothing_ratio = 1;
   scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 3}}, {BoundaryKind::roller, {0, 0}, {3, 0}}};
   LoadCase load;
   load.name = "plate", load.from = {0, 2}, load.to = {2, 2}, load.pressure = load.pressure_to = 20e3;
   load.over_time = {{0, 0}, {1, 1}};
   scene.loads = {load};
-  scene.formulation = default_formulation(Motion::consistent);
-  scene.formulation.zero_energy_control = 0.05;
   return scene;
 }
 
@@ -292,30 +287,18 @@ class PlatePressure final : public Load {
 
 /// A quarter of Mandel's specimen.
 Case specimen(int columns, double nu) {
-  Case scene;
-  SoilCase soil;
-  soil.name = "clay";
-  soil.polygon = {{0, 0}, {width, 0}, {width, thickness}, {0, thickness}};
-  soil.youngs_modulus = 100e6;
-  soil.poissons_ratio = nu;
-  soil.unit_weight_saturated = soil.unit_weight_unsaturated = scene.water.unit_weight;
-  soil.permeability = {1e-9, 1e-9};
-  scene.soils = {soil};
+  Case scene = weightless(width, thickness, 100e6, nu);
+  scene.soils[0].permeability = {1e-9, 1e-9};
   scene.water.mode = WaterMode::coupled;
   scene.water.stretches = {{-never, never, thickness}};
-  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
   scene.water.faces = {{.kind = FaceKind::closed, .from = {0, thickness}, .to = {width, thickness}}};
   scene.particles.spacing = width / columns;
-  scene.particles.arrangement = Arrangement::lattice;
-  scene.particles.smoothing_ratio = 1;
   scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, thickness + 1}},
                       {BoundaryKind::roller, {0, 0}, {width + 1, 0}}};
   LoadCase load;
   load.name = "plate", load.from = {0, thickness}, load.to = {width, thickness};
   load.pressure = load.pressure_to = force / width;
   scene.loads = {load};
-  scene.formulation = default_formulation(Motion::consistent);
-  scene.formulation.zero_energy_control = 0.05;
   return scene;
 }
 
