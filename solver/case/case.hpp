@@ -166,8 +166,8 @@ struct FormulationCase {
   double zero_energy_stiffness = -1;  ///< elastic part of that control, in terms of kappa M of the softest
                                       ///< soil in reach [-]; negative: by what is there
                                       ///< (solver/sph/consistent/zero_energy_spring.cpp)
-  double refresh_strain =
-      0;  ///< strain or rotation after which kernel gradients are rebuilt; 0: every step [-]
+  double refresh_strain = 0;  ///< strain or rotation after which kernel gradients are rebuilt; 0: every step;
+                              ///< < 0 automatic [-]
   bool closed_gradients = true;   ///< a uniform stress is in balance also in disorder
   bool single_precision = false;  ///< of stored kernel gradients
 };

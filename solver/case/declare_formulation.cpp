@@ -20,7 +20,7 @@ FormulationCase default_formulation(Motion motion) {
   if (motion == Motion::consistent) {
     c.bulk_viscosity = -1;
     c.zero_energy_control = 0.2;  // by the map cases/stability/refresh_zero_energy.toml
-    c.refresh_strain = 0.02;
+    c.refresh_strain = -1;
   } else {
     c.artificial_viscosity_alpha = 0.1;
   }
@@ -71,7 +71,7 @@ void declare(Fields& f, FormulationCase& c) {
       c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
-               .otherwise(fmt::to_string(usual.refresh_strain)),
+               .otherwise("0.02, but 0.05 in soil that has flowed"),
            c.refresh_strain, between(0, 0.1));
   f.flag(key_of_consistent(
              "closed_gradients",

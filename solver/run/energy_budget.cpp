@@ -20,10 +20,11 @@ std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, doubl
                                .plastic = work.plastic,
                                .control = work.control,
                                .contact = flow->loose().walls().work(),
+                               .walls = flow->wall_work().work(),
                                .diffusion = work.diffusion,
                                .bulk_viscosity = work.viscous};
   budget.unaccounted = budget.released - budget.kinetic - budget.elastic - budget.plastic - budget.control -
-                       budget.contact - budget.diffusion - budget.bulk_viscosity;
+                       budget.contact - budget.walls - budget.diffusion - budget.bulk_viscosity;
   return budget;
 }
 

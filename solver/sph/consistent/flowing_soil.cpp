@@ -10,16 +10,33 @@
 namespace porosph {
 namespace {
 
-using Vec4 = Eigen::Vector4d;
-using Gradient4 = Eigen::Matrix<double, 4, 2>;
-
 constexpr int steps_between_samples = 16;  // of the control's work
-
-Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
 bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
   return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).support().carries_shear();
+}
+
+/// The part of a particle's move that does not bring it too near to a wall.
+Vec2 short_of_walls(const Model& model, const Vec2& from, Vec2 move) {
+  const double nearest = LooseParticles::nearest * model.spacing;
+  for (const Wall& wall : model.walls) {
+    const double towards = -move.dot(wall.normal);
+    if (towards <= 0 || !wall.faces(from, model.spacing)) continue;
+    const double room = std::max(0.0, wall.distance(from) - nearest);
+    if (towards > room) move += (towards - room) * wall.normal;
+  }
+  return move;
+}
+
+/// L of eq. (10) by the soil alone.
+Mat2 correction_by_soil(const ReferenceConfiguration& r, std::int32_t a) {
+  const auto n = static_cast<std::int32_t>(r.particles());
+  Mat2 sum = Mat2::Zero();
+  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+    if (b < n) sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
+  });
+  return correction_matrix(sum);
 }
 
 }  // namespace
@@ -34,7 +51,7 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
         p.density[a] * std::exp(p.stress[a].mean() / soil.bulk_modulus() + soil.plastic_dilation(p, a));
   }
   viscosity_.assign(p.size(), control_viscosity);
-  shear_rate_.assign(p.size(), 0);
+  diffusion_ = StressDiffusion(p.size());
 }
 
 void FlowingSoil::settle(Model& model, Surroundings& surroundings) {
@@ -57,7 +74,7 @@ void FlowingSoil::update_density(Model& model) const {
 /// Inside the soil down the gradient of sum V W (Lind et al. 2012), not near its surface; and pairs that are
 /// nearer than half of the spacing apart, also from their images.
 void FlowingSoil::even_out(Model& model, const SeenNeighbours& seen) {
-  constexpr double strength = 0.5, farthest = 0.02, inside = 0.95, share = 0.1;
+  constexpr double strength = 0.5, farthest = 0.1, inside = 0.95, share = 0.1;
   Particles& p = model.particles;
   const CubicSpline<2> kernel(model.smoothing_length);
   const std::size_t n = p.size();
@@ -77,7 +94,7 @@ void FlowingSoil::even_out(Model& model, const SeenNeighbours& seen) {
       if (distance > 0 && distance < nearest) apart -= share * (nearest / distance - 1) * way;
     }
     const double half = 0.5 * (sum(0, 0) - sum(1, 1));
-    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::hypot(half, sum(0, 1));
+    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::sqrt(half * half + sum(0, 1) * sum(0, 1));
     if (least > inside) {
       const Vec2 move = -strength * h2 * crowd;
       const double far = move.norm();
@@ -86,8 +103,9 @@ void FlowingSoil::even_out(Model& model, const SeenNeighbours& seen) {
     moves[a] = apart;
   }
   for (std::size_t a = 0; a < n; ++a) {
-    p.position[a] += moves[a];
-    work_.shift -= p.mass[a] * model.gravity.dot(moves[a]);
+    const Vec2 move = short_of_walls(model, p.position[a], moves[a]);
+    p.position[a] += move;
+    work_.shift -= p.mass[a] * model.gravity.dot(move);
   }
 }
 
@@ -101,74 +119,24 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   std::vector<std::int32_t> neighbours(n);  // of the soil
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
-    Mat2 sum = Mat2::Zero();
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (b >= n) {
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
+      if (b >= n)
         has_ghosts[a] = 1, is_at_wall[a] |= is_fixed_image(r, b);
-      } else {
-        ++neighbours[a], sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
-      }
+      else
+        ++neighbours[a];
     });
-    correction_[a] = has_ghosts[a] ? correction_matrix(sum) : r.correction[a];
+    correction_[a] = has_ghosts[a] ? correction_by_soil(r, a) : r.correction[a];
   }
   loose_.take(model, neighbours, has_ghosts, has_flowed_);
   for (std::int32_t a = 0; a < n; ++a)
     blind_[a] = is_at_wall[a] && (neighbours[a] >= LooseParticles::fewest_neighbours || loose_.is(a));
+  wall_work_.take(r);
+  diffusion_.take(r, model, loose_, correction_);
+  deforms_.assign(n, 1);
+  for (std::int32_t a = 0; a < n; ++a)
+    if (loose_.is(a) || (has_flowed_ && is_at_wall[a])) deforms_[a] = 0;
   for (std::int32_t a = 0; a < n; ++a)
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
-}
-
-void FlowingSoil::diffuse_stress(const ReferenceConfiguration& r, Model& model, double dt) {
-  constexpr double per_rate = 10, most = 0.1, negligible = 1e-6;
-  Particles& p = model.particles;
-  const auto n = static_cast<std::int32_t>(p.size());
-  const double h2 = model.smoothing_length * model.smoothing_length;
-  std::vector<std::uint8_t> shears(n), near(n);
-  bool any = false;
-  for (std::int32_t a = 0; a < n; ++a)
-    any |= shears[a] =
-        per_rate * dt * shear_rate_[a] > negligible && model.soils[p.soil[a]].flows() && !loose_.is(a);
-  if (!any) return;
-  const auto share_stress = [&](std::int32_t a, std::int32_t b) {
-    return b < n && p.soil[b] == p.soil[a] && !loose_.is(b);
-  };
-  std::vector<Gradient4> gradient(n);
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    near[a] = shears[a];
-    if (loose_.is(a)) continue;
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
-      if (share_stress(a, b)) near[a] |= shears[b];
-    });
-    if (!near[a]) continue;
-    const Vec4 own = vector(p.stress[a]);
-    Gradient4 sum = Gradient4::Zero();
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (!share_stress(a, b)) return;
-      sum += (vector(p.stress[b]) - own) * Eigen::RowVector2d(g.x, g.y);
-    });
-    gradient[a] = sum * correction_[a].transpose();
-  }
-  std::vector<Vec4> change(n, Vec4::Zero());
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    if (!near[a]) continue;
-    const Vec4 own = vector(p.stress[a]);
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (!share_stress(a, b) || !(shears[a] || shears[b])) return;
-      const double d = std::min(0.5 * per_rate * dt * (shear_rate_[a] + shear_rate_[b]), most) * h2;
-      const Vec2 way = r.points[b] - r.points[a];
-      change[a] += 2 * d * g.w * (vector(p.stress[b]) - own - 0.5 * (gradient[a] + gradient[b]) * way);
-    });
-  }
-  work_.diffusion += deterministic_sum(n, [&](std::size_t a) {
-    if (!near[a]) return 0.0;
-    const Soil& soil = model.soils[p.soil[a]];
-    Stress& s = p.stress[a];
-    const double before = soil.stored_energy(s);
-    s = s + Stress{change[a][0], change[a][1], change[a][2], change[a][3]};
-    return p.volume(a) * (before - soil.stored_energy(s));
-  });
 }
 
 Mat2 FlowingSoil::own_gradient(const ReferenceConfiguration& r, const Particles& p, std::int32_t a) const {
@@ -190,6 +158,21 @@ Mat2 FlowingSoil::gradient_with_walls(const ReferenceConfiguration& r, const Par
     sum += (v - p.velocity[a]) * Eigen::RowVector2d(g.x, g.y);
   });
   return sum * r.correction[a].transpose();
+}
+
+double FlowingSoil::deform_at_walls(const ReferenceConfiguration& r, const Particles& p, double dt,
+                                    PlaneTensors& deformation) const {
+  double largest = 0;
+  if (!has_flowed_) return largest;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (std::size_t k = 0; k < at_walls_.size(); ++k) {
+    const std::int32_t a = at_walls_[k];
+    if (loose_.is(a)) continue;
+    const Mat2 f = deformation[a] + dt * own_gradient(r, p, a);
+    deformation.set(a, f);
+    largest = std::max(largest, (f - Mat2::Identity()).cwiseAbs().maxCoeff());
+  }
+  return largest;
 }
 
 void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particles& p, PlaneTensors& flux,
@@ -223,7 +206,9 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
 }
 
 /// The control's part of what the kernels and leave_out_walls() sum.
-void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particles& p) {
+void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& p,
+                              std::span<const PlaneTensor> piola) {
+  wall_work_.sample(r, p, piola);
   sample_.acceleration.clear();
   if (sample_.steps % steps_between_samples != 0) return;
   const auto n = static_cast<std::int32_t>(r.particles());
@@ -257,7 +242,8 @@ void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particle
   }
 }
 
-void FlowingSoil::count_control(const Particles& p, double dt) {
+void FlowingSoil::count_work(const ReferenceConfiguration& r, const Particles& p, double dt) {
+  wall_work_.count(r, p, dt);
   ++sample_.steps;
   if (sample_.acceleration.empty()) return;
   work_.control -=
@@ -270,10 +256,11 @@ void FlowingSoil::visit(StateArchive& state) {
   if (!active()) return;
   state.array("rest_density", rest_density_);
   state.array("control_viscosity", std::span(viscosity_).first(rest_density_.size()));
-  state.array("shear_rate", shear_rate_);
+  diffusion_.visit(state);
   state.value("has_flowed", has_flowed_);
   state.value("control_samples", sample_.steps);
   loose_.walls().visit(state);
+  wall_work_.visit(state);
   for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
     state.value("work", *work);
 }

@@ -7,6 +7,8 @@
 #include "solver/particles/state.hpp"
 #include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/consistent/stress_diffusion.hpp"
+#include "solver/sph/consistent/wall_work.hpp"
 
 namespace porosph {
 
@@ -29,9 +31,16 @@ class FlowingSoil {
   /// After that: what sums over the soil alone need.
   void take(const ReferenceConfiguration& reference, const Model& model);
 
-  /// Diffuses over a step dt [s] what of the stress is not linear, with D = 10 h^2 times the shear rate of
-  /// soil that yields.
-  void diffuse_stress(const ReferenceConfiguration& reference, Model& model, double dt);
+  /// F of particles at fixed walls, over a step dt [s], by the soil alone: soil that slides over images that
+  /// do not move with it is sheared as the law sees it, but its neighbours stay in place. Returns the largest
+  /// |F - I| there. In soil that has flowed only.
+  double deform_at_walls(const ReferenceConfiguration& reference, const Particles& particles, double dt,
+                         PlaneTensors& deformation) const;
+
+  /// Diffuses the stress after a step.
+  void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
+    work_.diffusion += diffusion_.apply(model, kernels, arrays);
+  }
 
   /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
   /// particle, after a step ...
@@ -42,7 +51,9 @@ class FlowingSoil {
                        std::span<Vec2> accelerations) const;
 
   std::vector<double>& viscosity() { return viscosity_; }  ///< mu of the control [Pa s]; and ghost
-  double* shear_rate() { return shear_rate_.data(); }      ///< as in FlowView
+  StressDiffusion& diffusion() { return diffusion_; }
+  const double* deforms() const { return deforms_.data(); }  ///< as in FlowView
+  const WallWork& wall_work() const { return wall_work_; }
   LooseParticles& loose() { return loose_; }
   const LooseParticles& loose() const { return loose_; }
 
@@ -59,9 +70,10 @@ class FlowingSoil {
 
   /// The work of the control is counted in one of some steps, for all of them: what it accelerates, with the
   /// velocities before, when forces have been summed ...
-  void sample_control(const ReferenceConfiguration& reference, const Particles& particles);
+  void sample_work(const ReferenceConfiguration& reference, const Particles& particles,
+                   std::span<const PlaneTensor> piola);
   /// ... and its work once these have changed the velocities, over a step dt [s].
-  void count_control(const Particles& particles, double dt);
+  void count_work(const ReferenceConfiguration& reference, const Particles& particles, double dt);
 
   void visit(StateArchive& state);
 
@@ -74,11 +86,14 @@ class FlowingSoil {
                            std::int32_t a) const;
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
-  std::vector<double> viscosity_, shear_rate_;
+  std::vector<double> viscosity_;
+  StressDiffusion diffusion_;
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those
+  std::vector<double> deforms_;         ///< as in FlowView
   LooseParticles loose_;
+  WallWork wall_work_;
   struct ControlSample {
     std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
     std::int64_t steps = 0;                    ///< counted so far

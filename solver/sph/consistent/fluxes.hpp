@@ -34,8 +34,13 @@ class Fluxes {
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 
+  PlaneTensors& deformation() { return deformation_; }
   PlaneTensors& flux() { return flux_; }
   std::span<Record> records() { return records_; }
+  void keep_piola_of(std::span<const std::int32_t> particles) {
+    for (const std::int32_t a : particles) mirrored_[a] = 1;
+  }
+  std::span<const PlaneTensor> piola() const { return piola_; }  ///< of what is mirrored, and of the ghosts
 
   void connect(ConsistentArrays& arrays, const ReferenceConfiguration& reference);
   /// Saves or restores what the next step needs; ghosts have theirs made when they are needed.

@@ -6,13 +6,14 @@ void LooseParticles::take(const Model& model, std::span<const std::int32_t> neig
                           std::span<const std::uint8_t> at_walls, bool flows) {
   bears_.assign(neighbours.size(), 1);
   walls_.clear();
+  flows_ = flows;
   for (std::size_t a = 0; flows && a < neighbours.size(); ++a) {
     const Soil& soil = model.soils[model.particles.soil[a]];
     if (!soil.flows()) continue;
     const bool loose = neighbours[a] < fewest_neighbours && !soil.stiffness_varies();
     if (loose) bears_[a] = 0;
     if (loose || at_walls[a])
-      walls_.watch(static_cast<std::int32_t>(a), (loose ? 0.5 : 0.25) * model.spacing);
+      walls_.watch(static_cast<std::int32_t>(a), (loose ? loose_ends : body_ends) * model.spacing);
   }
 }
 

@@ -16,6 +16,10 @@ namespace porosph {
 class LooseParticles {
  public:
   static constexpr int fewest_neighbours = 7;  ///< of the soil, that a particle of the body has
+  /// How near to walls they come, in spacings: at half of one the soil of a loose particle ends. Soil of the
+  /// body that has opened bears nothing until that has closed, and could sink through.
+  static constexpr double loose_ends = 0.5, body_ends = 0.25;
+  static constexpr double nearest = 0.2;  ///< evening out moves none nearer than that
 
   /// Those of a new reference, by how many particles of the soil each has as neighbours, and whether it has
   /// ghosts among them. None before soil flows, nor of a law whose stiffness follows its state, which cannot
@@ -23,17 +27,17 @@ class LooseParticles {
   void take(const Model& model, std::span<const std::int32_t> neighbours,
             std::span<const std::uint8_t> at_walls, bool flows);
 
+  bool soil_has_flowed() const { return flows_; }
   bool is(std::size_t particle) const { return bears_[particle] == 0; }
   const double* bears() const { return bears_.data(); }  ///< as in FlowView
 
-  /// Stops loose particles at half of the spacing, where their soil would end. Others at a quarter: soil that
-  /// has opened bears nothing until that has closed, and could sink through.
   WallStop& walls() { return walls_; }
   const WallStop& walls() const { return walls_; }
 
  private:
   std::vector<double> bears_;  ///< 1, or 0 for those that are loose
   WallStop walls_;
+  bool flows_ = false;
 };
 
 }  // namespace porosph

@@ -4,8 +4,8 @@
 
 namespace porosph {
 
-StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, bool flows,
-                                     const LooseParticles* loose) {
+StressBehindWalls::StressBehindWalls(const ReferenceConfiguration& r, bool flows, const LooseParticles* loose)
+    : flowed_(loose && loose->soil_has_flowed()) {
   // At rest no force is as stiff as what is extrapolated. The stress of a single row that slides over a wall
   // doubles in every step with a gradient across the row that its unevenness alone decides.
   const double spans_the_plane = flows ? 0.15 : 0.01;
@@ -64,6 +64,7 @@ StressBehindWalls::OneSided StressBehindWalls::one_sided(const ReferenceConfigur
     sum += g * (r.points[b] - r.points[a]).transpose();
   });
   const Mat2 correction = correction_matrix(sum, spans_the_plane);
+  stencil.determinant = sum.determinant();
   for (Vec2& g : stencil.gradient) g = correction * g;
   return stencil;
 }
@@ -94,6 +95,13 @@ void StressBehindWalls::fill(const ReferenceConfiguration& r, std::vector<PlaneT
     if (ghosts.stems_from_ghost(i)) mirror(i);
 }
 
+/// The toe of soil that has flowed: a gradient would be noise, and what walls do with it sets the toe in
+/// motion for ever. The ghosts' stress is then mirrored as their motion is, so that walls give no energy.
+bool StressBehindWalls::too_thin(const OneSided& stencil) const {
+  constexpr double thinnest = 0.2;
+  return flowed_ && stencil.determinant < thinnest;
+}
+
 void StressBehindWalls::sum_gradients(const std::vector<PlaneTensor>& piola) {
 #pragma omp parallel for schedule(static)
   for (std::size_t s = 0; s < stencils_.size(); ++s) {
@@ -113,6 +121,8 @@ Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_
                                      const std::vector<PlaneTensor>& piola) const {
   const std::size_t ghost = extrapolated_[k];
   const Continued& c = continued_[k];
+  if (too_thin(stencils_[c.stencil]))
+    return r.ghosts.flux_from_root(ghost, matrix(piola[r.ghosts.root(ghost)]));
   const auto& [along_x, along_y] = gradients_[c.stencil];
   Mat2 root = matrix(piola[r.ghosts.root(ghost)]);
   Mat2 stress = root + along_x * c.way.x() + along_y * c.way.y();

@@ -30,6 +30,7 @@ class StressBehindWalls {
     std::int32_t particle;
     std::vector<std::int32_t> neighbours;
     std::vector<Vec2> gradient;  ///< exact for linear fields without the extrapolated ghosts
+    double determinant = 1;      ///< of the sum that this takes; 1 inside, 0.34 in a layer of two rows
   };
   struct Continued {
     std::int32_t stencil;
@@ -42,6 +43,7 @@ class StressBehindWalls {
                             const std::vector<std::uint8_t>& left_out, double spans_the_plane);
   static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
                                 std::int32_t stencil);
+  bool too_thin(const OneSided& stencil) const;
   void sum_gradients(const std::vector<PlaneTensor>& piola);
   Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t k,
                     const std::vector<PlaneTensor>& piola) const;
@@ -50,6 +52,7 @@ class StressBehindWalls {
   std::vector<Continued> continued_;                  ///< beside extrapolated_
   std::vector<OneSided> stencils_;
   std::vector<std::array<Mat2, 2>> gradients_;  ///< of P along x and y, of each stencil
+  bool flowed_ = false;
 };
 
 }  // namespace porosph

@@ -126,11 +126,16 @@ NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, std::siz
   return collected(n, [&](std::size_t a, std::vector<std::int32_t>& list) {
     const Vec2 here = points[a];
     const auto is_near = [&](std::int32_t b) { return (points[b] - here).squaredNorm() < reach_ * reach_; };
-    bool behind_walls = false;
-    for (const std::int32_t b : candidates_.of(a)) {
-      behind_walls = behind_walls || ghosts.first[b] < ghosts.first[b + 1];
-      if (is_near(b) && static_cast<std::size_t>(b) != a) list.push_back(b);
+    const auto candidates = candidates_.of(a);
+    std::size_t end = list.size();
+    list.resize(end + candidates.size());
+    unsigned behind_walls = 0;
+    for (const std::int32_t b : candidates) {
+      behind_walls |= ghosts.first[b] < ghosts.first[b + 1];
+      list[end] = b;
+      end += is_near(b) & (static_cast<std::size_t>(b) != a);
     }
+    list.resize(end);
     if (!behind_walls) return;
     const auto first = std::ssize(list);
     for (const std::int32_t b : candidates_.of(a))

@@ -96,11 +96,23 @@ struct StabilisationView {
 /// soil flows: mu is then the same everywhere.
 struct FlowView {
   double* viscosity;      ///< mu, and ghost [Pa s]
-  double* shear_rate;     ///< gamma where the soil yielded in the last step, or else 0 [1/s]
+  double* sheared;        ///< grows by the shear strain of the steps in which the soil yields
   const double* bears;    ///< 1, or 0 for particles that are loose: they bear no stress
+  const double* deforms;  ///< 1, or 0 for particles whose F the steps leave as it is
   const double* mass;     ///< [kg/m]
   double length_squared;  ///< h^2 [m2]
   double weight;          ///< g dx [m2/s2]
+};
+
+/// Diffusion of stress where soil flows: see StressDiffusion.
+struct StressDiffusionView {
+  const std::int32_t* soil;   ///< and ghost; particles of one number share their stress, those below 0 do not
+  const double* diffusivity;  ///< D dt of the last step, and ghost; 0 where nothing shears [m2]
+  double most;                ///< of the mean D dt of two particles [m2]
+  std::uint8_t* near;         ///< 1 where D is not 0 at a particle or one that shares its stress
+  const double* correction;   ///< L by the soil alone, a matrix each, column by column
+  double* gradient;           ///< of the stress along each axis, stress_size numbers each [Pa/m]
+  double* change;             ///< stress_size numbers each [Pa]
 };
 
 template <class Space>
@@ -111,6 +123,7 @@ struct ConsistentArraysIn {
   FluxViewIn<Space> fluxes;
   StabilisationView control;
   FlowView flow;
+  StressDiffusionView diffusion;
   double gravity[Space::dim];  ///< [m/s2]
 };
 
@@ -130,6 +143,10 @@ struct ConsistentKernelsIn {
   void (*strain)(const ConsistentArraysIn<Space>&, std::int32_t tile, double dt, LargestChange&);
   /// Accelerations with gravity, a vector each for all particles [m/s2].
   void (*accelerate)(const ConsistentArraysIn<Space>&, std::int32_t tile, double* out);
+  /// Where soil flows: which particles are near to soil that shears, and the gradients of their stress.
+  void (*stress_gradients)(const ConsistentArraysIn<Space>&, std::int32_t tile);
+  /// What their stress changes by as it diffuses, from the gradients of all.
+  void (*diffuse)(const ConsistentArraysIn<Space>&, std::int32_t tile);
 };
 
 using ReferenceView = ReferenceViewIn<Plane>;

@@ -4,6 +4,7 @@
 
 #include "solver/sph/kernels/accelerations.hpp"
 #include "solver/sph/kernels/strain.hpp"
+#include "solver/sph/kernels/stress_diffusion.hpp"
 
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
@@ -34,7 +35,18 @@ void accelerate(const ConsistentArraysIn<Space>& c, std::int32_t number, double*
 }
 
 template <class Space>
-constexpr ConsistentKernelsIn<Space> loops_in = {rates<Space>, strain<Space>, accelerate<Space>};
+void gradients_of_stress(const ConsistentArraysIn<Space>& c, std::int32_t number) {
+  stress_gradients(c, range_of(*c.reference.stencils, number));
+}
+
+template <class Space>
+void diffusion(const ConsistentArraysIn<Space>& c, std::int32_t number) {
+  diffuse(c, range_of(*c.reference.stencils, number));
+}
+
+template <class Space>
+constexpr ConsistentKernelsIn<Space> loops_in = {rates<Space>, strain<Space>, accelerate<Space>,
+                                                 gradients_of_stress<Space>, diffusion<Space>};
 
 }  // namespace
 }  // namespace porosph::POROSPH_VECTOR_UNITS

@@ -39,7 +39,7 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep<Plane>& ti
     const std::int32_t j = i - first;
     const double yields = departs(t.old_stress(i), elastic_stress[j]);
     if (t.yields) t.yields[i] = yields;
-    if (t.viscosity) t.viscosity[i] = t.mu, t.shear_rate[i] = 0;
+    if (t.viscosity) t.viscosity[i] = t.mu;
     if (place < 0)
       t.write_flux(i, t.old_stress(i), f, density, modulus, g.trace(), t.controlled(i, f, elastic), t.mu);
     else

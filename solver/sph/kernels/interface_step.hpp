@@ -59,7 +59,7 @@ template <SoilLaw Law, Watch watch>
                                                               const OwnSideStep& side, std::int32_t i,
                                                               std::int32_t j, const Law& law,
                                                               double* const* history, const Found& found) {
-  const Gradient gradient = side.gradient(j, t.gradient(i));
+  const Gradient gradient = side.gradient(j, watch == Watch::flow ? t.gradient_in_flow(i) : t.gradient(i));
   typename Law::History q = load_history<Law>(history, i);
   const double bears = watch == Watch::flow ? t.bears[i] : 1;
   const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
@@ -68,7 +68,7 @@ template <SoilLaw Law, Watch watch>
   if (watched) t.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
-  const Gradient f = watch == Watch::flow ? t.deformed_flow(i) : t.deformed(i);
+  const Gradient f = watch == Watch::flow ? t.deformed_in_flow(i) : t.deformed(i);
   const double density = t.compressed(i, f, found.strain, found.speed_squared);
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;

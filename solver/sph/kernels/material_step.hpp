@@ -31,9 +31,10 @@ struct TileStep {
         density(c.state.density + tile.first),
         yields(c.state.yields ? c.state.yields + tile.first : nullptr),
         viscosity(c.flow.viscosity ? c.flow.viscosity + tile.first : nullptr),
-        shear_rate(c.flow.viscosity ? c.flow.shear_rate + tile.first : nullptr),
+        sheared(c.flow.viscosity ? c.flow.sheared + tile.first : nullptr),
         hoop(c.fluxes.hoop + (has_hoop<Space> ? tile.first : 0)),
         bears(c.flow.bears + (c.flow.viscosity ? tile.first : 0)),
+        deforms(c.flow.deforms + (c.flow.viscosity ? tile.first : 0)),
         excess((c.state.excess ? c.state.excess : c.reference.fill) + tile.first),
         mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
         excess_share(c.state.excess ? 1 : 0),
@@ -58,6 +59,11 @@ struct TileStep {
     const Gradient r = gradient_at<Space>(rate, i);
     return mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half, r));
   }
+  /// The same where soil flows, also of particles whose F is not carried by their rate.
+  [[gnu::always_inline]] Gradient gradient_in_flow(std::int32_t i) const {
+    const Gradient r = gradient_at<Space>(rate, i);
+    return mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half * deforms[i], r));
+  }
   [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
     const double* s = stress + stress_size<Space> * i;
     if constexpr (Space::dim == 3)
@@ -77,10 +83,9 @@ struct TileStep {
     put(deformation, i, f);
     return f;
   }
-  /// The same where soil flows: that of a loose particle stays I.
-  [[gnu::always_inline]] Gradient deformed_flow(std::int32_t i) const {
-    const Gradient f = towards_identity(
-        plus(gradient_at<Space>(deformation, i), dt, gradient_at<Space>(rate, i)), 1 - bears[i]);
+  /// The same where soil flows, but of particles whose F is not carried by their rate.
+  [[gnu::always_inline]] Gradient deformed_in_flow(std::int32_t i) const {
+    const Gradient f = plus(gradient_at<Space>(deformation, i), dt * deforms[i], gradient_at<Space>(rate, i));
     put(deformation, i, f);
     return f;
   }
@@ -118,7 +123,7 @@ struct TileStep {
     }
   }
 
-  /// mu and gamma of FlowView. A step of no length only writes fluxes: gamma stays.
+  /// mu of FlowView.
   [[gnu::always_inline]] double bounded_viscosity(std::int32_t i, const Gradient& g, double density_now,
                                                   double strength, double sin_phi, double yielding) const {
     const double gamma = shear_rate_of(g);
@@ -127,14 +132,14 @@ struct TileStep {
     const double inertial = density_now * length_squared * gamma;
     const bool bounded = bears[i] > 0 && 0.1 * k < (mu - inertial) * gamma;
     const double bound = 0.1 * k / (bounded ? gamma : 1) + inertial;
-    shear_rate[i] = dt > 0 ? yielding * gamma : shear_rate[i];
+    sheared[i] += dt * yielding * gamma;
     return viscosity[i] = bounded ? bound : mu;
   }
 
   std::int32_t particle;  ///< the tile's first
   const double *reference_density, *fill, *radius;
-  double *stress, *density, *yields, *viscosity, *shear_rate, *hoop;
-  const double *bears, *excess, *mass;
+  double *stress, *density, *yields, *viscosity, *sheared, *hoop;
+  const double *bears, *deforms, *excess, *mass;
   double excess_share;  ///< 0: the soil carries none, and `excess` is any array
   double mu, length_squared, weight, bulk_length, dt, half;
   const double *velocity[Space::dim], *rate[gradients], *correction[matrix];
@@ -162,7 +167,6 @@ template <class Space, SoilLaw<Space> Law>
   if constexpr (YieldingLaw<Law, Space>)
     return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q),
                                always ? 1 : yields);
-  t.shear_rate[i] = 0;
   return t.viscosity[i] = t.mu;
 }
 
@@ -195,7 +199,7 @@ struct Found {
 template <class Space, SoilLaw<Space> Law, Watch watch>
 [[gnu::always_inline]] inline void particle_step(const TileStep<Space>& t, std::int32_t i, const Law& law,
                                                  double* const* history, double elastic, const Found& found) {
-  const GradientIn<Space> gradient = t.gradient(i);
+  const GradientIn<Space> gradient = watch == Watch::flow ? t.gradient_in_flow(i) : t.gradient(i);
   typename Law::History q = load_history<Law>(history, i);
   const double bears = watch == Watch::flow ? t.bears[i] : 1;
   const Symmetric<Space> old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
@@ -204,7 +208,7 @@ template <class Space, SoilLaw<Space> Law, Watch watch>
   if (watched) t.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
-  const GradientIn<Space> f = watch == Watch::flow ? t.deformed_flow(i) : t.deformed(i);
+  const GradientIn<Space> f = watch == Watch::flow ? t.deformed_in_flow(i) : t.deformed(i);
   const double density = t.compressed(i, f, found.strain, found.speed_squared);
   const double modulus = law.constrained_modulus(s, q);
   double mu = t.mu;

@@ -88,20 +88,6 @@ inline GradientIn<Solid> plus_strain(const GradientIn<Solid>& a, double s, const
           a.zx + s * b.zx,       a.zy + s * b.zy,       a.zz + s * (b.zz - 1)};
 }
 
-/// F + s (I - F).
-inline Gradient towards_identity(const Gradient& f, double s) {
-  return {f.xx + s * (1 - f.xx), f.xy - s * f.xy, f.yx - s * f.yx, f.yy + s * (1 - f.yy)};
-}
-inline GradientIn<Axisymmetric> towards_identity(const GradientIn<Axisymmetric>& f, double s) {
-  return {f.xx + s * (1 - f.xx), f.xy - s * f.xy, f.yx - s * f.yx, f.yy + s * (1 - f.yy),
-          f.zz + s * (1 - f.zz)};
-}
-inline GradientIn<Solid> towards_identity(const GradientIn<Solid>& f, double s) {
-  return {f.xx + s * (1 - f.xx), f.xy - s * f.xy,       f.xz - s * f.xz,
-          f.yx - s * f.yx,       f.yy + s * (1 - f.yy), f.yz - s * f.yz,
-          f.zx - s * f.zx,       f.zy - s * f.zy,       f.zz + s * (1 - f.zz)};
-}
-
 /// Largest number of |F - I|.
 inline double largest_strain(const Gradient& f) {
   return larger(larger(std::abs(f.xx - 1), std::abs(f.yy - 1)), larger(std::abs(f.xy), std::abs(f.yx)));

@@ -1,0 +1,80 @@
+#include "solver/sph/consistent/stress_diffusion.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "solver/space/parallel.hpp"
+
+namespace porosph {
+namespace {
+
+constexpr double per_strain = 10;  // D dt over h^2
+constexpr double most = 0.1;       // of that in a step
+constexpr double negligible = 1e-6;
+constexpr int steps_between_counts = 16;  // of the energy
+
+}  // namespace
+
+void StressDiffusion::take(const ReferenceConfiguration& r, const Model& model, const LooseParticles& loose,
+                           std::span<const Mat2> correction) {
+  const Particles& p = model.particles;
+  const std::size_t n = r.particles();
+  soil_.assign(r.points.size(), -1);
+  for (std::size_t a = 0; a < n; ++a)
+    if (model.soils[p.soil[a]].flows() && !loose.is(a)) soil_[a] = p.soil[a];
+  diffusivity_.assign(r.points.size(), 0);
+  length_squared_ = model.smoothing_length * model.smoothing_length;
+  near_.assign(n, 0);
+  correction_.assign(correction.begin(), correction.end());
+  gradient_.assign(2 * n, Stress{});
+  change_.assign(n, Stress{});
+}
+
+/// D dt of what has been sheared; false where nothing has.
+bool StressDiffusion::take_strain() {
+  bool any = false;
+  for (std::size_t a = 0; a < sheared_.size(); ++a) {
+    const double share = per_strain * std::exchange(sheared_[a], 0);
+    diffusivity_[a] = share > negligible && soil_[a] >= 0 ? share * length_squared_ : 0;
+    any = any || diffusivity_[a] > 0;
+  }
+  return any;
+}
+
+double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& c) {
+  const bool counted = steps_++ % steps_between_counts == 0;
+  if (!take_strain()) return 0;
+  Particles& p = model.particles;
+  const std::int32_t tiles = c.reference.stencils->tiles();
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < tiles; ++tile) kernels.stress_gradients(c, tile);
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < tiles; ++tile) kernels.diffuse(c, tile);
+  const auto energy = [&] {
+    return deterministic_sum(p.size(), [&](std::size_t a) {
+      return near_[a] ? p.volume(a) * model.soils[p.soil[a]].stored_energy(p.stress[a]) : 0.0;
+    });
+  };
+  const double before = counted ? energy() : 0;
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < p.size(); ++a)
+    if (near_[a]) p.stress[a] = p.stress[a] + change_[a];
+  return counted ? steps_between_counts * (before - energy()) : 0;
+}
+
+StressDiffusionView StressDiffusion::view() {
+  return {.soil = soil_.data(),
+          .diffusivity = diffusivity_.data(),
+          .most = most * length_squared_,
+          .near = near_.data(),
+          .correction = correction_.empty() ? nullptr : correction_.data()->data(),
+          .gradient = gradient_.empty() ? nullptr : &gradient_.data()->xx,
+          .change = change_.empty() ? nullptr : &change_.data()->xx};
+}
+
+void StressDiffusion::visit(StateArchive& state) {
+  state.array("sheared", sheared_);
+  state.value("diffusion_steps", steps_);
+}
+
+}  // namespace porosph

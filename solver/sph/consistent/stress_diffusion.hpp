@@ -1,0 +1,50 @@
+// Diffusion of the stress in soil that shears as it yields.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/model/model.hpp"
+#include "solver/particles/state.hpp"
+#include "solver/sph/consistent/loose_particles.hpp"
+#include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/kernels/consistent_kernels.hpp"
+
+namespace porosph {
+
+/// What of the stress is not linear from particle to particle is diffused with D = 10 h^2 times the shear
+/// rate of the soil that yields: the law's return leaves an alternation that no velocity gradient sees.
+/// Particles of one soil share their stress; loose ones have none.
+class StressDiffusion {
+ public:
+  StressDiffusion() = default;
+  explicit StressDiffusion(std::size_t particles) : sheared_(particles, 0) {}
+
+  /// For a new reference; `correction` is L of eq. (10) of the particles, by the soil alone.
+  void take(const ReferenceConfiguration& reference, const Model& model, const LooseParticles& loose,
+            std::span<const Mat2> correction);
+
+  /// Diffuses what the last step has sheared. Returns what the elastic energy has lost [J/m], counted in one
+  /// of some steps, for all of them.
+  double apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays);
+
+  double* sheared() { return sheared_.data(); }  ///< as in FlowView
+  StressDiffusionView view();
+  void visit(StateArchive& state);
+
+ private:
+  bool take_strain();
+
+  std::vector<double> sheared_;
+  std::vector<std::int32_t> soil_;   ///< and ghost; -1 for those that take no part
+  std::vector<double> diffusivity_;  ///< and ghost
+  std::vector<std::uint8_t> near_;
+  std::vector<Mat2> correction_;
+  std::vector<Stress> gradient_;  ///< along x, then along y, of each particle [Pa/m]
+  std::vector<Stress> change_;    ///< [Pa]
+  double length_squared_ = 0;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace porosph

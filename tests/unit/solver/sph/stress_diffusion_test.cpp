@@ -1,0 +1,117 @@
+// Diffusion of stress in soil that shears: what it smooths, and what it leaves alone.
+#include "solver/sph/consistent/stress_diffusion.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/box_of_soil.hpp"
+
+using namespace porosph;
+
+namespace {
+
+constexpr int rows = 8;
+constexpr double spacing = 0.5;
+
+/// A square of soil that yields, all of which has been sheared by `strain`.
+struct Sheared {
+  explicit Sheared(double strain) {
+    Case scene = box_of_soil(rows, rows, spacing);
+    scene.soils[0].law = LawKind::drucker_prager;
+    scene.soils[0].strength = {.cohesion = 1e3, .friction_angle = 30};
+    model = build_model(scene);
+    reference = make_reference(model, {}, Surroundings(model).find(model));
+    const std::vector<std::int32_t> neighbours(size(), 20);
+    const std::vector<std::uint8_t> at_walls(size(), 0);
+    loose.take(model, neighbours, at_walls, true);
+    std::vector<Mat2> correction;
+    for (std::size_t a = 0; a < size(); ++a) correction.push_back(reference.correction[a]);
+    diffusion = StressDiffusion(size());
+    diffusion.take(reference, model, loose, correction);
+    std::fill_n(diffusion.sheared(), size(), strain);
+  }
+  std::size_t size() const { return model.particles.size(); }
+
+  /// Returns the elastic energy that is lost.
+  double diffuse() {
+    ConsistentArrays arrays{};
+    arrays.reference = reference.view(model.particles);
+    arrays.state.stress = &model.particles.stress.data()->xx;
+    arrays.diffusion = diffusion.view();
+    return diffusion.apply(model, consistent_kernels(vector_units()), arrays);
+  }
+  /// Gives each particle the stress of_place(x, y).
+  template <class Of>
+  void give(Of&& of_place) {
+    for (std::size_t a = 0; a < size(); ++a)
+      model.particles.stress[a] = of_place(model.particles.position[a].x(), model.particles.position[a].y());
+  }
+  double alternation() const {
+    double sum = 0;
+    for (const Stress& s : model.particles.stress) sum += s.xx * s.xx;
+    return std::sqrt(sum / static_cast<double>(size()));
+  }
+
+  Model model;
+  ReferenceConfiguration reference;
+  LooseParticles loose;
+  StressDiffusion diffusion;
+};
+
+Stress linear(double x, double y) { return {-1e3 * x, -2e3 * y, 500 * (x + y), 300 * x - 100 * y}; }
+
+Stress alternating(double x, double y) {
+  return {std::lround(2 * (x + y) / spacing) % 4 == 0 ? 100.0 : -100.0, 0, 0, 0};
+}
+
+}  // namespace
+
+TEST_CASE("a stress that is linear does not diffuse, up to the surface") {
+  Sheared soil(0.01);
+  soil.give(linear);
+  soil.diffuse();
+  for (std::size_t a = 0; a < soil.size(); ++a) {
+    const Vec2& x = soil.model.particles.position[a];
+    const Stress s = soil.model.particles.stress[a], expected = linear(x.x(), x.y());
+    CHECK(std::sqrt((s + expected * -1.0).squared()) < 1e-9 * std::sqrt(expected.squared()) + 1e-9);
+  }
+}
+
+TEST_CASE("a stress that alternates diffuses with the strain, by no more than is stable") {
+  const auto left = [](double strain) {
+    Sheared soil(strain);
+    soil.give(alternating);
+    const double before = soil.alternation();
+    CHECK(soil.diffuse() > 0);
+    return soil.alternation() / before;
+  };
+  CHECK(left(0.004) == Approx(1 - 2 * (1 - left(0.002))).epsilon(0.02));
+  CHECK(left(0.01) < 0.9);
+  CHECK(left(10) == Approx(left(0.01)).epsilon(1e-12));
+  CHECK(left(10) > 0.2);
+}
+
+TEST_CASE("what has not sheared does not diffuse, and shear counts once") {
+  Sheared soil(0);
+  soil.give(alternating);
+  CHECK(soil.diffuse() == 0);
+  CHECK(soil.alternation() == Approx(100).epsilon(1e-12));
+  std::fill_n(soil.diffusion.sheared(), soil.size(), 0.002);
+  soil.diffuse();
+  const double once = soil.alternation();
+  CHECK(once < 100);
+  soil.diffuse();
+  CHECK(soil.alternation() == once);
+}
+
+TEST_CASE("soils do not share their stress") {
+  Sheared soil(0.01);
+  soil.give([](double, double y) { return y < 0.5 * rows * spacing ? Stress{100, 0, 0, 0} : Stress{}; });
+  Particles& p = soil.model.particles;
+  soil.model.soils.push_back(soil.model.soils[0]);
+  for (std::size_t a = 0; a < p.size(); ++a) p.soil[a] = p.position[a].y() < 0.5 * rows * spacing ? 1 : 0;
+  std::vector<Mat2> correction(soil.size(), Mat2::Identity());
+  soil.diffusion.take(soil.reference, soil.model, soil.loose, correction);
+  soil.diffuse();
+  for (std::size_t a = 0; a < p.size(); ++a) CHECK(p.stress[a].xx == (p.soil[a] == 1 ? 100 : 0));
+}
