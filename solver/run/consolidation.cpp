@@ -62,9 +62,9 @@ std::optional<Consolidation::Drainage> Consolidation::drainage(const Case& scene
 }
 
 Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics,
-                             std::span<const LoadedParticles> loads, double dt)
+                             std::span<const LoadedParticles> loads, std::span<Footing> footings, double dt)
     : model_(model),
-      soil_(model, dynamics, loads, dt),
+      soil_(model, dynamics, loads, footings, dt),
       settings_(scene.water.coupling),
       unit_weight_(scene.water.unit_weight),
       drainage_(drainage(scene, model.particles)),

@@ -9,8 +9,14 @@
 
 namespace porosph {
 
-RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads, double dt)
-    : model_(model), dynamics_(dynamics), loads_(loads), dt_(dt), excess_(model.particles.size(), 0) {
+RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
+                         std::span<Footing> footings, double dt)
+    : model_(model),
+      dynamics_(dynamics),
+      loads_(loads),
+      footings_(footings),
+      dt_(dt),
+      excess_(model.particles.size(), 0) {
   const Particles& p = model.particles;
   for (std::size_t a = 0; a < p.size(); ++a) start_volume_.push_back(p.volume(a));
   accelerations_.resize(p.size());
@@ -43,11 +49,12 @@ void RestingSoil::relax(int sweeps, double time) {
     dynamics_.accelerations(accelerations_);
     add_loads(model_.loads, p, time, accelerations_);
     add_surface_loads(loads_, p, time, accelerations_);
+    const Kick kick = full_kick(relaxation_.damping, dt_);
+    for (Footing& footing : footings_) footing.hold(p, kick, dt_, time, accelerations_);
     if (!before_.empty()) relaxation_.measure(p, before_, accelerations_, dt_);
     before_.clear();
     if (k == sweeps) return;
     if (sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
-    const Kick kick = full_kick(relaxation_.damping, dt_);
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < p.size(); ++a) {
       p.velocity[a] = kick(p.velocity[a], accelerations_[a]);

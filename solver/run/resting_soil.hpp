@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/run/footings.hpp"
 #include "solver/run/relaxation.hpp"
 #include "solver/run/surface_loads.hpp"
 #include "solver/sph/dynamics.hpp"
@@ -16,10 +17,11 @@ namespace porosph {
 class RestingSoil {
  public:
   /// `dt` of the relaxation [s].
-  RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads, double dt);
+  RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
+              std::span<Footing> footings, double dt);
 
   std::span<double> excess() { return excess_; }  ///< p_e of the particles [Pa]
-  /// So many steps under the loads of a time [s]; `accelerations` are then those that are left.
+  /// So many steps under the loads and footings of a time [s]; `accelerations` are then those that are left.
   void relax(int sweeps, double time);
   /// Moves the particles at once to where they are thought to come to rest, from where they are at rest.
   void move_to(std::span<const Vec2> places);
@@ -42,6 +44,7 @@ class RestingSoil {
   Model& model_;
   Dynamics& dynamics_;
   std::span<const LoadedParticles> loads_;
+  std::span<Footing> footings_;
   double dt_;
   double extent_;  ///< of the body [m]
   Relaxation relaxation_;

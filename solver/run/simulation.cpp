@@ -136,7 +136,7 @@ void Simulation::couple() {
   if (scene_.time.step > 0)
     throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
   consolidation_ = std::make_unique<Consolidation>(moved(scene_, -model_.origin), model_, *dynamics_,
-                                                   surface_loads_, clock_.dt);
+                                                   surface_loads_, footings_, clock_.dt);
   clock_.last_step = std::int64_t{1} << 40;
   clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
 }

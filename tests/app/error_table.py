@@ -154,6 +154,9 @@ OF_THE_GROUND = [
     ("a footing that jumps", "[time]", FOOTING.replace("force = 1e4", "settlement = 0.1") + "[time]"),
     ("a footing on a wall", "[time]", FOOTING.replace(", 2]", ", 0]") + "[time]"),
     ("a footing in the paper's form", "[time]", FOOTING + "[formulation]\nmotion = \"proposed\"\n[time]"),
+    ("a footing that settles on coupled water", "[time]",
+     FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]")
+     + "[water]\nmode = \"undrained\"\nlevel = 2\n[time]"),
     ("a footing in a case with stages", "[time]", FOOTING + "[[stage]]\nname = \"next\"\nduration = 1\n[time]"),
 ]
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")

@@ -173,6 +173,38 @@ TEST_CASE("consolidation: a fill under its own weight") {
          std::abs(settlement(s) / last - own_weight_degree(0.848)), 0.003);
 }
 
+TEST_CASE("consolidation: Mandel's specimen") {
+  constexpr double width = 4, thickness = 2, force = 20e3, modulus = 10e6 * 0.8 / (1.2 * 0.6),
+                   shear_modulus = 10e6 / 2.4;
+  const Mandel exact(0.2);
+  Simulation s(scene("mandel"));
+  double highest = 0;
+  measure_at_frames(s, [&](const Simulation& now) {
+    const double factor = now.time() * 1e-8 * modulus / 9810 / (width * width);
+    const Particles& p = now.model().particles;
+    double squares = 0, all = 0;
+    for (std::size_t a = 0; a < p.size(); ++a) {
+      const double found = 9810 * now.consolidation()->head()[a] / (force / width);
+      const double expected = exact.pressure(p.start[a].x() / width, factor);
+      squares += (found - expected) * (found - expected), all += expected * expected;
+      highest = std::max(highest, 2 * found);
+    }
+    const auto row = [&](const std::string& quantity, double error, double limit) {
+      expect({.name = "mandel",
+              .settings = {},
+              .quantity = fmt::format("{} at T = {:.2g}", quantity, factor),
+              .reference = "series of Mandel (1953)",
+              .resolution = metres(0.2)},
+             error, limit);
+    };
+    row("excess pore pressure, relative L2", std::sqrt(squares / all), 0.006);
+    const double settled = 2 * shear_modulus * now.footings()[0].settlement(p) * width / (thickness * force);
+    row("settlement of the plate", std::abs(settled / exact.strain(factor) - 1), 0.006);
+    CHECK(now.footings()[0].force() == Approx(force).epsilon(1e-3));
+  });
+  CHECK(highest > 1.04);  // above the pressure that the load gives at once
+}
+
 TEST_CASE("consolidation: two layers") {
   const TwoLayers exact({2, 1e-6, 24e6}, {2, 1e-9, 12e6}, 9810);
   Simulation s(scene("two_layers"));

@@ -45,7 +45,8 @@ struct Column {
   explicit Column(const Case& scene_) : scene(scene_), model(build_model(scene)) {
     dynamics = make_dynamics(scene.formulation, model);
     const double dt = 0.9 * model.smoothing_length / model.wave_speed;
-    water = std::make_unique<Consolidation>(scene, model, *dynamics, std::span<const LoadedParticles>(), dt);
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, std::span<const LoadedParticles>(),
+                                            std::span<Footing>(), dt);
   }
   double modulus() const { return model.soils[0].constrained_modulus(); }
   double buoyant() const { return scene.soils[0].unit_weight_saturated - scene.water.unit_weight; }
@@ -165,9 +166,10 @@ Case strip(double stabilisation, double spacing) {
 struct Loaded {
   explicit Loaded(const Case& scene_) : scene(scene_), model(build_model(scene)) {
     loads = surface_loads(scene, model);
+    footings = make_footings(scene, model);
     dynamics = make_dynamics(scene.formulation, model);
     const double dt = 0.9 * model.smoothing_length / model.wave_speed;
-    water = std::make_unique<Consolidation>(scene, model, *dynamics, loads, dt);
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, loads, footings, dt);
   }
   /// Of the excess pressures below the third row, what alternates from row to row over all: sixth
   /// differences, in which alternation alone stays as it is.
@@ -198,6 +200,7 @@ struct Loaded {
   Case scene;
   Model model;
   std::vector<LoadedParticles> loads;
+  std::vector<Footing> footings;
   std::unique_ptr<Dynamics> dynamics;
   std::unique_ptr<Consolidation> water;
 };
@@ -263,27 +266,28 @@ TEST_CASE("soil that keeps its water fails at its undrained strength", "[water][
   CHECK(now * 20e3 == Approx(strength).margin(0.02 * 20e3));
 }
 
+TEST_CASE("a footing on soil that keeps its water presses on the water alone", "[water][undrained]") {
+  Case scene = weightless(4, 4, 10e6, 0.3);
+  scene.water.mode = WaterMode::undrained;
+  scene.water.stretches = {{-never, never, 4}};
+  scene.particles.spacing = 0.4;
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 5}},
+                      {BoundaryKind::roller, {4, 0}, {4, 5}},
+                      {BoundaryKind::fixed, {0, 0}, {4, 0}}};
+  FootingCase plate;
+  plate.name = "plate", plate.from = {0, 4}, plate.to = {4, 4}, plate.force = 40e3;
+  plate.over_time = {{0, 0}, {1, 1}};
+  scene.footings = {plate};
+  scene.time.end = 1;
+  Loaded soil(scene);
+  for (double now = 0; now < 1;) now = soil.water->advance(now, 1);
+  CHECK(soil.footings[0].force() == Approx(40e3).epsilon(1e-4));
+  for (const double h : soil.water->head()) CHECK(h * 9.81e3 == Approx(10e3).epsilon(0.002));
+}
+
 namespace {
 
 constexpr double width = 4, thickness = 2, force = 20e3;  // a of Mandel [m], height of the quarter, F [N/m]
-
-/// What Mandel's rigid plate presses with: the exact solution gives it [Pa].
-class PlatePressure final : public Load {
- public:
-  PlatePressure(double nu, double unit) : exact_(nu), unit_(unit) {}
-  Vec2 traction(const Vec2& place, const Vec2& normal, double time) const override {
-    if (time != time_) known_.clear(), time_ = time;
-    auto [at, is_new] = known_.try_emplace(place.x(), 1);
-    if (is_new && time / unit_ > 1e-4) at->second = exact_.vertical_stress(place.x() / width, time / unit_);
-    return -force / width * at->second * normal;
-  }
-
- private:
-  Mandel exact_;
-  double unit_;
-  mutable double time_ = -1;
-  mutable std::map<double, double> known_;
-};
 
 /// A quarter of Mandel's specimen.
 Case specimen(int columns, double nu) {
@@ -295,10 +299,10 @@ Case specimen(int columns, double nu) {
   scene.particles.spacing = width / columns;
   scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, thickness + 1}},
                       {BoundaryKind::roller, {0, 0}, {width + 1, 0}}};
-  LoadCase load;
-  load.name = "plate", load.from = {0, thickness}, load.to = {width, thickness};
-  load.pressure = load.pressure_to = force / width;
-  scene.loads = {load};
+  FootingCase plate;
+  plate.name = "plate", plate.from = {0, thickness}, plate.to = {width, thickness};
+  plate.rough = false, plate.force = force;
+  scene.footings = {plate};
   return scene;
 }
 
@@ -310,7 +314,6 @@ TEST_CASE("pressure rises in the middle of Mandel's specimen", "[water][consolid
   Loaded m(specimen(20, nu));
   const double modulus = m.model.soils[0].constrained_modulus();
   const double unit = width * width * m.scene.water.unit_weight / (1e-9 * modulus);
-  for (LoadedParticles& l : m.loads) l.load = std::make_shared<PlatePressure>(nu, unit);
   const Particles& p = m.model.particles;
   double now = 0;
   for (const double factor : {0.02, 0.05, 0.1, 0.5}) {

@@ -135,8 +135,9 @@ TEST_CASE("a footing that cannot be is refused", "[footing]") {
   CHECK_THAT(issues_of([](Case& c, FootingCase&) { c.formulation.motion = Motion::proposed; }),
              Contains("needs formulation.motion"));
   for (const WaterMode mode : {WaterMode::coupled, WaterMode::undrained})
-    CHECK_THAT(issues_of([&](Case& c, FootingCase&) { c.water.mode = mode; }),
-               Contains("a footing does not go with water.mode = \"" + std::string(name(mode)) + "\""));
+    CHECK_THAT(
+        issues_of([&](Case& c, FootingCase& f) { c.water.mode = mode, f.force = never, f.settlement = 0.1; }),
+        Contains("with water.mode = \"" + std::string(name(mode)) + "\" a footing needs 'force'"));
   CHECK_THAT(issues_of([](Case& c, FootingCase&) { c.probes.push_back({.name = "plate"}); }),
              Contains("footing[0].name: 'plate' is the name of a probe too"));
 }
