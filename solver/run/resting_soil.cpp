@@ -49,12 +49,12 @@ void RestingSoil::relax(int sweeps, double time) {
     dynamics_.accelerations(accelerations_);
     add_loads(model_.loads, p, time, accelerations_);
     add_surface_loads(loads_, p, time, accelerations_);
-    const Kick kick = full_kick(relaxation_.damping, dt_);
-    for (Footing& footing : footings_) footing.hold(p, kick, dt_, time, accelerations_);
     if (!before_.empty()) relaxation_.measure(p, before_, accelerations_, dt_);
     before_.clear();
+    if (k < sweeps && sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
+    const Kick kick = full_kick(relaxation_.damping, dt_);
+    for (Footing& footing : footings_) footing.hold(p, kick, dt_, time, accelerations_);
     if (k == sweeps) return;
-    if (sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < p.size(); ++a) {
       p.velocity[a] = kick(p.velocity[a], accelerations_[a]);
