@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/sph/consistent/body_contact.hpp"
+
 namespace porosph {
 namespace {
 
@@ -33,8 +35,15 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
   control_.viscosity = formulation.zero_energy_control * control_.rho_c * model.smoothing_length;
 }
 
+/// Elastic bodies keep their neighbours, and each new reference takes what alternates as it is.
+double ConsistentDynamics::refresh_strain() const {
+  constexpr double usual = 0.02, of_bodies = 0.1;
+  if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;
+  return surroundings_.bodies_are_apart() ? of_bodies : usual;
+}
+
 void ConsistentDynamics::prepare() {
-  const bool deformed = since_.strain > formulation_.refresh_strain;
+  const bool deformed = since_.strain > refresh_strain();
   if (reference_.made() && !strangers_are_near() && !deformed) return;
   if (!reference_.made())
     flow_ = FlowingSoil(model_, control_.viscosity);
@@ -49,7 +58,10 @@ void ConsistentDynamics::prepare() {
 
 /// For the particles where they are now, undeformed.
 void ConsistentDynamics::rebuild_reference() {
+  constexpr double against_impact = 0.6;  // contact acts on single rows: docs/theory.md
   FormulationCase formulation = formulation_;
+  if (surroundings_.bodies_are_apart() && formulation.zero_energy_stiffness < 0)
+    formulation.zero_energy_stiffness = against_impact;
   if (flow_.has_flowed()) {  // gradients are closed, and zigzag held, in the arrangement at the start
     formulation.closed_gradients = false;
     if (formulation.zero_energy_stiffness < 0) formulation.zero_energy_stiffness = 0;
@@ -124,6 +136,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
+  add_contact(model_, surroundings_.strangers(model_), out);
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);
     flow_.sample_control(reference_, model_.particles);

@@ -41,6 +41,7 @@ class ConsistentDynamics final : public Dynamics {
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
 
  private:
+  double refresh_strain() const;
   void rebuild_reference();
   void connect_arrays();
   bool strangers_are_near();
