@@ -167,7 +167,7 @@ struct FormulationCase {
                                       ///< soil in reach [-]; negative: by what is there
                                       ///< (solver/sph/consistent/zero_energy_spring.cpp)
   double refresh_strain =
-      0;  ///< strain or rotation after which kernel gradients are rebuilt; 0: every step [-]
+      0;  ///< strain or rotation after which gradients are rebuilt; 0: every step; negative: by default [-]
   bool closed_gradients = true;   ///< a uniform stress is in balance also in disorder
   bool single_precision = false;  ///< of stored kernel gradients
 };

@@ -71,6 +71,7 @@ struct Summary {
     double plastic = 0;         ///< dissipated by the soil laws
     double control = 0;         ///< by the zero-energy control
     double contact = 0;         ///< by walls that stop loose particles
+    double friction = 0;        ///< by friction on walls
     double diffusion = 0;       ///< by the diffusion of stress
     double bulk_viscosity = 0;  ///< by bulk viscosity
     double unaccounted = 0;     ///< the rest: at walls, and what the integration loses or gains

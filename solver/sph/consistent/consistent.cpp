@@ -136,6 +136,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
+  if (friction_.active() && flow_.active()) friction_.sample(reference_, model_.particles);
   add_contact(model_, surroundings_.strangers(model_), out);
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);
@@ -172,6 +173,7 @@ void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
     flow_.loose().walls().remember_step(dt);
     flow_.count_control(model_.particles, dt);
+    if (friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(reference_, model_, dt);
   }
   fluxes_.take_velocities(reference_, model_.particles);

@@ -13,8 +13,6 @@ namespace {
 using Vec4 = Eigen::Vector4d;
 using Gradient4 = Eigen::Matrix<double, 4, 2>;
 
-constexpr int steps_between_samples = 16;  // of the control's work
-
 Vec4 vector(const Stress& s) { return {s.xx, s.yy, s.zz, s.xy}; }
 
 bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
@@ -35,6 +33,18 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   }
   viscosity_.assign(p.size(), control_viscosity);
   shear_rate_.assign(p.size(), 0);
+  work_.beyond_linear_at_start = energy_beyond_linear(model);
+}
+
+double energy_beyond_linear(const Model& model) {
+  if (std::ranges::none_of(model.soils, &Soil::stiffness_varies)) return 0;
+  const Particles& p = model.particles;
+  return deterministic_sum(p.size(), [&](std::size_t a) {
+    const Soil& soil = model.soils[p.soil[a]];
+    const CamClay* clay = std::get_if<CamClay>(&soil.law());
+    if (clay == nullptr) return 0.0;
+    return p.volume(a) * (clay->swelling_energy(p.stress[a]) - soil.stored_energy(p.stress[a]));
+  });
 }
 
 void FlowingSoil::settle(Model& model, Surroundings& surroundings) {
@@ -225,7 +235,7 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
 /// The control's part of what the kernels and leave_out_walls() sum.
 void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particles& p) {
   sample_.acceleration.clear();
-  if (sample_.steps % steps_between_samples != 0) return;
+  if (!sample_.due()) return;
   const auto n = static_cast<std::int32_t>(r.particles());
   std::vector<Mat2> gradient(n);
 #pragma omp parallel for schedule(static)
@@ -257,14 +267,7 @@ void FlowingSoil::sample_control(const ReferenceConfiguration& r, const Particle
   }
 }
 
-void FlowingSoil::count_control(const Particles& p, double dt) {
-  ++sample_.steps;
-  if (sample_.acceleration.empty()) return;
-  work_.control -=
-      steps_between_samples * dt * deterministic_sum(p.size(), [&](std::size_t a) {
-        return 0.5 * p.mass[a] * sample_.acceleration[a].dot(sample_.velocity[a] + p.velocity[a]);
-      });
-}
+void FlowingSoil::count_control(const Particles& p, double dt) { work_.control += sample_.taken(p, dt); }
 
 void FlowingSoil::visit(StateArchive& state) {
   if (!active()) return;
@@ -274,7 +277,8 @@ void FlowingSoil::visit(StateArchive& state) {
   state.value("has_flowed", has_flowed_);
   state.value("control_samples", sample_.steps);
   loose_.walls().visit(state);
-  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
+  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift,
+                       &work_.beyond_linear_at_start})
     state.value("work", *work);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
+#include "solver/sph/consistent/force_sample.hpp"
 #include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
 
@@ -48,11 +49,12 @@ class FlowingSoil {
 
   /// Energy since the start [J/m].
   struct Work {
-    double plastic = 0;    ///< dissipated by the laws
-    double viscous = 0;    ///< by bulk viscosity
-    double control = 0;    ///< by the zero-energy control
-    double diffusion = 0;  ///< lost from the elastic energy by the diffusion of stress
-    double shift = 0;      ///< gravity's energy gained by moving particles
+    double plastic = 0;                 ///< dissipated by the laws
+    double viscous = 0;                 ///< by bulk viscosity
+    double control = 0;                 ///< by the zero-energy control
+    double diffusion = 0;               ///< lost from the elastic energy by the diffusion of stress
+    double shift = 0;                   ///< gravity's energy gained by moving particles
+    double beyond_linear_at_start = 0;  ///< energy_beyond_linear() then
   };
   const Work& work() const { return work_; }
   void add_dissipation(double plastic, double viscous) { work_.plastic += plastic, work_.viscous += viscous; }
@@ -79,13 +81,13 @@ class FlowingSoil {
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
   std::vector<std::uint8_t> blind_;     ///< to those
   LooseParticles loose_;
-  struct ControlSample {
-    std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
-    std::int64_t steps = 0;                    ///< counted so far
-  };
-  ControlSample sample_;
+  ForceSample sample_;  ///< of the control
   bool has_flowed_ = false;
   Work work_;
 };
+
+/// Elastic energy of soil whose stiffness follows its state, less what the largest moduli would give at its
+/// stress; 0 of other soil [J/m].
+double energy_beyond_linear(const Model& model);
 
 }  // namespace porosph
