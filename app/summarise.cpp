@@ -150,11 +150,13 @@ std::string tell(const Summary& s) {
   if (s.energy && s.energy->released > 0)
     text += fmt::format(
         "{:.4g} J/m released: {:.1f} % dissipated by the soil, {:.1f} % by the zero-energy "
-        "control, {:.1f} % by walls that stop loose particles, {:.1f} % by the stress behind walls, {:.1f} % "
-        "unaccounted for\n",
+        "control, {:.1f} % by walls that stop loose particles, {:.1f} % by friction on walls, {:.1f} % by "
+        "the "
+        "stress behind walls, {:.1f} % unaccounted for\n",
         s.energy->released, 100 * s.energy->plastic / s.energy->released,
         100 * s.energy->control / s.energy->released, 100 * s.energy->contact / s.energy->released,
-        100 * s.energy->walls / s.energy->released, 100 * s.energy->unaccounted / s.energy->released);
+        100 * s.energy->friction / s.energy->released, 100 * s.energy->walls / s.energy->released,
+        100 * s.energy->unaccounted / s.energy->released);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
   text += tell(s.stages);

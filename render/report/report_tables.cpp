@@ -113,6 +113,7 @@ Rows energy_table(const std::vector<LoadedRun>& runs) {
   share("kinetic now", &Budget::kinetic), share("elastic gained", &Budget::elastic);
   share("dissipated by the soil", &Budget::plastic), share("by the zero-energy control", &Budget::control);
   share("by walls that stop loose particles", &Budget::contact);
+  share("by friction on walls", &Budget::friction);
   share("by the stress behind walls", &Budget::walls);
   share("by the diffusion of stress", &Budget::diffusion);
   share("by bulk viscosity", &Budget::bulk_viscosity);

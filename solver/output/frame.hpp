@@ -71,7 +71,8 @@ struct Summary {
     double plastic = 0;         ///< dissipated by the soil laws
     double control = 0;         ///< by the zero-energy control
     double contact = 0;         ///< by walls that stop loose particles
-    double walls = 0;           ///< by friction of walls, and by the stress that is extrapolated behind them
+    double friction = 0;        ///< by friction on walls
+    double walls = 0;           ///< by the stress that is extrapolated behind walls
     double diffusion = 0;       ///< by the diffusion of stress
     double bulk_viscosity = 0;  ///< by bulk viscosity
     double unaccounted = 0;     ///< the rest: at walls, and what the integration loses or gains

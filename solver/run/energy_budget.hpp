@@ -8,8 +8,8 @@
 
 namespace porosph {
 
-/// Since the start, at which the total energy was `at_start` [J/m]. Nothing where no soil yields, where
-/// damping takes energy, or where a soil's stiffness follows its state, whose elastic energy is not known.
+/// Since the start, at which the total energy was `at_start` [J/m]. Nothing where no soil yields, or
+/// where damping takes energy.
 std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start);
 
 }  // namespace porosph

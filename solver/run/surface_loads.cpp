@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "solver/boundary/traction.hpp"
@@ -77,6 +78,34 @@ double share_on(double along, double length, double width) {
          width;
 }
 
+/// The edges on which the outline goes on beside a face with this normal, where it turns by less than 45
+/// degrees.
+std::vector<OutlineEdge> bends_of(const Case& scene, const std::vector<OutlineEdge>& edges,
+                                  const Vec2& normal) {
+  const double blunt = std::sqrt(0.5);
+  std::vector<OutlineEdge> bends;
+  for (const OutlineEdge& edge : edges) {
+    const double turn = outward_normal(scene, edge.a, edge.b).dot(normal);
+    if (turn > blunt && turn < 1 - 1e-9) bends.push_back(edge);
+  }
+  return bends;
+}
+
+/// The share of a particle's surface that lies on a stretch, of whose width it has `share`; the bends in
+/// reach have the rest. Nothing where none is in reach.
+std::optional<double> share_beside(const std::vector<OutlineEdge>& bends, const Vec2& place, double share,
+                                   double width, double reach) {
+  double all = share;
+  bool found = false;
+  for (const OutlineEdge& edge : bends) {
+    if (distance(place, place, edge.a, edge.b) > reach) continue;
+    const Vec2 way = edge.b - edge.a;
+    all += share_on((place - edge.a).dot(way.normalized()), way.norm(), width);
+    found = true;
+  }
+  return found ? std::optional(share / all) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Vec2> surface_vectors(const Case& scene, const Model& model) {
@@ -89,7 +118,7 @@ std::vector<Vec2> surface_vectors(const Case& scene, const Model& model) {
 
 StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,
                                 const Model& model, std::span<const Vec2> vectors) {
-  const std::vector<OutlineEdge> edges = free_edges(scene);
+  const std::vector<OutlineEdge> edges = free_edges(scene), bends = bends_of(scene, edges, normal);
   const Particles& p = model.particles;
   // L differs from that inside within 2 h of the surface, and their neighbours feel it.
   const double reach = 4 * model.smoothing_length, spacing = model.spacing;
@@ -104,7 +133,11 @@ StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2
     if (share == 0) continue;
     found.particles.push_back(static_cast<std::int32_t>(i));
     found.along.push_back(std::clamp(along, 0.0, length));
-    found.areas.push_back(share * area_on(vectors[i], normal, p.position[i], away, edges, reach));
+    // What faces that meet almost in line have of a surface vector cannot be told by their normals.
+    const auto part = share_beside(bends, p.position[i], share, spacing, reach);
+    found.normals.push_back(part ? vectors[i].normalized() : normal);
+    found.areas.push_back(part ? *part * vectors[i].norm()
+                               : share * area_on(vectors[i], normal, p.position[i], away, edges, reach));
   }
   return found;
 }
@@ -117,9 +150,9 @@ std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model
     const Vec2 normal = outward_normal(scene, load.from, load.to);
     StretchOfParticles on = particles_on(load.from, load.to, normal, scene, model, vectors);
     LoadedParticles loaded{.load = std::make_shared<Traction>(load),
-                           .normal = normal,
                            .particles = std::move(on.particles),
                            .places = {},
+                           .normals = std::move(on.normals),
                            .areas = std::move(on.areas)};
     const Vec2 way = load.to - load.from;
     for (const double along : on.along) loaded.places.push_back(load.from + along / way.norm() * way);
@@ -136,7 +169,7 @@ void add_surface_loads(std::span<const LoadedParticles> loads, const Particles& 
   for (const LoadedParticles& l : loads)
     for (std::size_t k = 0; k < l.particles.size(); ++k) {
       const std::int32_t a = l.particles[k];
-      accelerations[a] += l.areas[k] / p.mass[a] * l.load->traction(l.places[k], l.normal, time);
+      accelerations[a] += l.areas[k] / p.mass[a] * l.load->traction(l.places[k], l.normals[k], time);
     }
 }
 
@@ -145,7 +178,7 @@ double load_energy(std::span<const LoadedParticles> loads, const Particles& p, d
   for (const LoadedParticles& l : loads)
     for (std::size_t k = 0; k < l.particles.size(); ++k)
       energy -=
-          l.areas[k] * l.load->traction(l.places[k], l.normal, time).dot(p.displacement(l.particles[k]));
+          l.areas[k] * l.load->traction(l.places[k], l.normals[k], time).dot(p.displacement(l.particles[k]));
   return energy;
 }
 
@@ -153,7 +186,7 @@ double load_squares(std::span<const LoadedParticles> loads, double time) {
   double sum = 0;
   for (const LoadedParticles& l : loads)
     for (std::size_t k = 0; k < l.particles.size(); ++k)
-      sum += (l.areas[k] * l.load->traction(l.places[k], l.normal, time)).squaredNorm();
+      sum += (l.areas[k] * l.load->traction(l.places[k], l.normals[k], time)).squaredNorm();
   return sum;
 }
 

@@ -14,9 +14,9 @@ namespace porosph {
 /// What a load acts on: the surface at the start, in parts that its particles carry.
 struct LoadedParticles {
   std::shared_ptr<const Load> load;
-  Vec2 normal;                          ///< out of the soil
   std::vector<std::int32_t> particles;  ///< that carry it
   std::vector<Vec2> places;             ///< of each on the stretch [m]
+  std::vector<Vec2> normals;            ///< of each, out of the soil
   std::vector<double> areas;            ///< of each, per metre of thickness [m]
 };
 
@@ -24,11 +24,14 @@ struct LoadedParticles {
 /// case's own form. A traction sigma n_a is then in balance with a uniform stress sigma to rounding.
 std::vector<Vec2> surface_vectors(const Case& scene, const Model& model);
 
-/// The particles whose surface lies on a straight stretch of the outline.
+/// The particles whose surface lies on a straight stretch of the outline. Where the outline turns by less
+/// than 45 degrees beside it, as a curve of short stretches does, each has its own normal, that of its
+/// surface.
 struct StretchOfParticles {
   std::vector<std::int32_t> particles;
   std::vector<double> along;  ///< of each, from the stretch's beginning [m]
-  std::vector<double> areas;  ///< of each, as in LoadedParticles [m]
+  std::vector<Vec2> normals;  ///< of each, as in LoadedParticles
+  std::vector<double> areas;  ///< of each [m]
 };
 StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,
                                 const Model& model, std::span<const Vec2> surface_vectors);

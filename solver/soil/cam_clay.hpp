@@ -98,6 +98,14 @@ struct CamClay : Elasticity {
   }
   using Elasticity::constrained_modulus;
 
+  /// Elastic energy per volume: work of p' = P - attraction along the swelling line, and of shear at the
+  /// present G. As G follows P, a closed path in stress may keep a little more or less than this.
+  double swelling_energy(const Stress& s) const {
+    const double p = pressure(s), shear = shear_ratio * p / swelling;
+    return swelling * (p - attraction - attraction * std::log(p / attraction)) +
+           s.plus_isotropic(-s.mean()).squared() / (4 * shear);
+  }
+
   /// Volume strain since the start without what has opened, less that of an elastic soil with the base's bulk
   /// modulus.
   template <class Space>

@@ -43,6 +43,7 @@ class Dynamics {
   virtual void visit(StateArchive& state) = 0;
 
   /// What it does where soil yields and flows, if anything.
+  virtual double work_of_wall_friction() const { return 0; }  ///< while soil flows [J/m]
   virtual const FlowingSoil* flow() const { return nullptr; }
 
   /// How often neighbours were searched, kernel gradients made, and of these closed for disorder.

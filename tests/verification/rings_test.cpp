@@ -73,13 +73,17 @@ TEST_CASE("rings: without artificial stress the proposed form breaks them") {
        "must break: more than 2, or unstable");
 }
 
-// What touches becomes one continuum of the consistent form, which has no contact: in the middle of the
-// impact particles are pressed through each other. That must be found and said, not computed on.
-TEST_CASE("rings: the consistent form, which has no contact, says where it breaks down") {
-  const Collision c = collide({});
-  CHECK_FALSE(c.completed);
+TEST_CASE("rings: in the consistent form they bounce whole, at any spacing") {
+  const double spacing = GENERATE(0.0016, 0.0012);
+  const Settings settings = spacing < 0.0016 ? Settings{"particles.spacing=0.0012"} : Settings{};
+  const Collision c = collide(settings);
+  CHECK(c.completed);
   CHECK(c.touched);
+  CHECK(c.bodies == 2);
   CHECK(c.energy < 1);
-  note({"rings", {}, "collision, consistent form", "two whole rings", "6 particles over the wall"},
-       "unstable: particles met in the contact", "a limit of the form: must be found");
+  CHECK(c.energy > 0.5);
+  CHECK(c.speed_after < -0.5);
+  note({"rings", settings, "bodies after the collision, consistent form", "two whole rings",
+        fmt::format("{:.0f} particles over the wall", 0.01 / spacing)},
+       fmt::format("{}, {:.2f} of the speed regained", c.bodies, -c.speed_after), "2, above 0.5");
 }

@@ -124,7 +124,8 @@ Json to_json(const Summary& summary) {
     Json& energy = json["energy_budget"];
     put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
     put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
-    put(energy, "contact", e.contact), put(energy, "walls", e.walls);
+    put(energy, "contact", e.contact), put(energy, "wall_friction", e.friction),
+        put(energy, "walls", e.walls);
     put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
     put(energy, "unaccounted", e.unaccounted);
   }
@@ -347,6 +348,7 @@ Summary summary_from(const Object& json) {
                       .plastic = e.number("plastic"),
                       .control = e.number("control"),
                       .contact = e.has("contact") ? e.number("contact") : 0,  // older runs have none
+                      .friction = e.has("wall_friction") ? e.number("wall_friction") : 0,
                       .walls = e.has("walls") ? e.number("walls") : 0,
                       .diffusion = e.number("stress_diffusion"),
                       .bulk_viscosity = e.number("bulk_viscosity"),

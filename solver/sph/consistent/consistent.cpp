@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/sph/consistent/body_contact.hpp"
+
 namespace porosph {
 namespace {
 
@@ -34,10 +36,13 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 }
 
 /// By the map cases/stability/refresh_zero_energy.toml; in flow by collapsing columns, which a limit of 0.02
-/// lets run out equally far, to 0.5 %, in twice the time.
+/// lets run out equally far, to 0.5 %, in twice the time. Elastic bodies keep their neighbours, and each new
+/// reference takes what alternates as it is.
 double ConsistentDynamics::refresh_strain() const {
+  constexpr double usual = 0.02, in_flow = 0.05, of_bodies = 0.1;
   if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;
-  return flow_.has_flowed() ? 0.05 : 0.02;
+  if (flow_.has_flowed()) return in_flow;
+  return surroundings_.bodies_are_apart() ? of_bodies : usual;
 }
 
 void ConsistentDynamics::prepare() {
@@ -56,7 +61,10 @@ void ConsistentDynamics::prepare() {
 
 /// For the particles where they are now, undeformed.
 void ConsistentDynamics::rebuild_reference() {
+  constexpr double against_impact = 0.6;  // contact acts on single rows: docs/theory.md
   FormulationCase formulation = formulation_;
+  if (surroundings_.bodies_are_apart() && formulation.zero_energy_stiffness < 0)
+    formulation.zero_energy_stiffness = against_impact;
   if (flow_.has_flowed()) {  // gradients are closed, and zigzag held, in the arrangement at the start
     formulation.closed_gradients = false;
     if (formulation.zero_energy_stiffness < 0) formulation.zero_energy_stiffness = 0;
@@ -136,6 +144,8 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
+  if (friction_.active() && flow_.active()) friction_.sample(reference_, model_.particles);
+  add_contact(model_, surroundings_.strangers(model_), out);
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);
     flow_.sample_work(reference_, model_.particles, fluxes_.piola());
@@ -171,6 +181,7 @@ void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
     flow_.loose().walls().remember_step(dt);
     flow_.count_work(reference_, model_.particles, dt);
+    if (friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(model_, kernels_, arrays_);
   }
   fluxes_.take_velocities(reference_, model_.particles);

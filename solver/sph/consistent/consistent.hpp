@@ -39,6 +39,7 @@ class ConsistentDynamics final : public Dynamics {
   void carry_excess(std::span<const double> excess) override { arrays_.state.excess = excess.data(); }
   void visit(StateArchive& state) override;
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
+  double work_of_wall_friction() const override { return friction_.work(); }
 
  private:
   double refresh_strain() const;

@@ -10,8 +10,6 @@
 namespace porosph {
 namespace {
 
-constexpr int steps_between_samples = 16;  // of the control's work
-
 bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
   return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).support().carries_shear();
@@ -52,6 +50,18 @@ FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   }
   viscosity_.assign(p.size(), control_viscosity);
   diffusion_ = StressDiffusion(p.size());
+  work_.beyond_linear_at_start = energy_beyond_linear(model);
+}
+
+double energy_beyond_linear(const Model& model) {
+  if (std::ranges::none_of(model.soils, &Soil::stiffness_varies)) return 0;
+  const Particles& p = model.particles;
+  return deterministic_sum(p.size(), [&](std::size_t a) {
+    const Soil& soil = model.soils[p.soil[a]];
+    const CamClay* clay = std::get_if<CamClay>(&soil.law());
+    if (clay == nullptr) return 0.0;
+    return p.volume(a) * (clay->swelling_energy(p.stress[a]) - soil.stored_energy(p.stress[a]));
+  });
 }
 
 void FlowingSoil::settle(Model& model, Surroundings& surroundings) {
@@ -210,7 +220,7 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
                               std::span<const PlaneTensor> piola) {
   wall_work_.sample(r, p, piola);
   sample_.acceleration.clear();
-  if (sample_.steps % steps_between_samples != 0) return;
+  if (!sample_.due()) return;
   const auto n = static_cast<std::int32_t>(r.particles());
   std::vector<Mat2> gradient(n);
 #pragma omp parallel for schedule(static)
@@ -244,12 +254,7 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
 
 void FlowingSoil::count_work(const ReferenceConfiguration& r, const Particles& p, double dt) {
   wall_work_.count(r, p, dt);
-  ++sample_.steps;
-  if (sample_.acceleration.empty()) return;
-  work_.control -=
-      steps_between_samples * dt * deterministic_sum(p.size(), [&](std::size_t a) {
-        return 0.5 * p.mass[a] * sample_.acceleration[a].dot(sample_.velocity[a] + p.velocity[a]);
-      });
+  work_.control += sample_.taken(p, dt);
 }
 
 void FlowingSoil::visit(StateArchive& state) {
@@ -261,7 +266,8 @@ void FlowingSoil::visit(StateArchive& state) {
   state.value("control_samples", sample_.steps);
   loose_.walls().visit(state);
   wall_work_.visit(state);
-  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift})
+  for (double* work : {&work_.plastic, &work_.viscous, &work_.control, &work_.diffusion, &work_.shift,
+                       &work_.beyond_linear_at_start})
     state.value("work", *work);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
+#include "solver/sph/consistent/force_sample.hpp"
 #include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/consistent/stress_diffusion.hpp"
@@ -50,20 +51,21 @@ class FlowingSoil {
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
                        std::span<Vec2> accelerations) const;
 
-  std::vector<double>& viscosity() { return viscosity_; }  ///< mu of the control [Pa s]; and ghost
-  StressDiffusion& diffusion() { return diffusion_; }
+  std::vector<double>& viscosity() { return viscosity_; }    ///< mu of the control [Pa s]; and ghost
   const double* deforms() const { return deforms_.data(); }  ///< as in FlowView
+  StressDiffusion& diffusion() { return diffusion_; }
   const WallWork& wall_work() const { return wall_work_; }
   LooseParticles& loose() { return loose_; }
   const LooseParticles& loose() const { return loose_; }
 
   /// Energy since the start [J/m].
   struct Work {
-    double plastic = 0;    ///< dissipated by the laws
-    double viscous = 0;    ///< by bulk viscosity
-    double control = 0;    ///< by the zero-energy control
-    double diffusion = 0;  ///< lost from the elastic energy by the diffusion of stress
-    double shift = 0;      ///< gravity's energy gained by moving particles
+    double plastic = 0;                 ///< dissipated by the laws
+    double viscous = 0;                 ///< by bulk viscosity
+    double control = 0;                 ///< by the zero-energy control
+    double diffusion = 0;               ///< lost from the elastic energy by the diffusion of stress
+    double shift = 0;                   ///< gravity's energy gained by moving particles
+    double beyond_linear_at_start = 0;  ///< energy_beyond_linear() then
   };
   const Work& work() const { return work_; }
   void add_dissipation(double plastic, double viscous) { work_.plastic += plastic, work_.viscous += viscous; }
@@ -94,13 +96,13 @@ class FlowingSoil {
   std::vector<double> deforms_;         ///< as in FlowView
   LooseParticles loose_;
   WallWork wall_work_;
-  struct ControlSample {
-    std::vector<Vec2> acceleration, velocity;  ///< [m/s2], [m/s]; empty where none is due
-    std::int64_t steps = 0;                    ///< counted so far
-  };
-  ControlSample sample_;
+  ForceSample sample_;  ///< of the control
   bool has_flowed_ = false;
   Work work_;
 };
+
+/// Elastic energy of soil whose stiffness follows its state, less what the largest moduli would give at its
+/// stress; 0 of other soil [J/m].
+double energy_beyond_linear(const Model& model);
 
 }  // namespace porosph

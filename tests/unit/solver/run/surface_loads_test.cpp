@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "solver/case/case_file.hpp"
 #include "solver/run/simulation.hpp"
@@ -37,7 +38,7 @@ Vec2 total_force(std::span<const LoadedParticles> loads, double time) {
   Vec2 sum = Vec2::Zero();
   for (const LoadedParticles& l : loads)
     for (std::size_t k = 0; k < l.particles.size(); ++k)
-      sum += l.areas[k] * l.load->traction(l.places[k], l.normal, time);
+      sum += l.areas[k] * l.load->traction(l.places[k], l.normals[k], time);
   return sum;
 }
 
@@ -80,6 +81,32 @@ TEST_CASE("all faces of a free box under one pressure are in balance, corners in
   add_surface_loads(loads, model.particles, 0, a);
   for (std::size_t i = 0; i < a.size(); ++i)
     CHECK(model.particles.mass[i] * a[i].norm() < 1e-9 * q * scene.particles.spacing);
+}
+
+TEST_CASE("a round face of short stretches under one pressure is in balance", "[load]") {
+  constexpr int corners = 48;  // a bend is in reach of each particle
+  constexpr double q = 10e3, turn = 2 * std::numbers::pi / corners;
+  Case scene = pressed_box(Arrangement::fitted, 0);
+  scene.boundaries.clear(), scene.loads.clear();
+  Polygon& ring = scene.soils[0].polygon;
+  ring.clear();
+  for (int i = 0; i < corners; ++i) ring.push_back({2.5 * std::cos(i * turn), 2.5 * std::sin(i * turn)});
+  for (int i = 0; i < corners; ++i) scene.loads.push_back(pressing(ring[i], ring[(i + 1) % corners], q));
+  scene.particles.spacing = 0.125;
+  Model model = build_model(scene);
+  const auto loads = surface_loads(scene, model);
+  std::ranges::fill(model.particles.stress, Stress{-q, -q, -q, 0});
+  const auto dynamics = make_dynamics(scene.formulation, model);
+  std::vector<Vec2> a(model.particles.size(), Vec2::Zero());
+  dynamics->prepare();
+  dynamics->accelerations(a);
+  add_surface_loads(loads, model.particles, 0, a);
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, model.particles.mass[i] * a[i].norm());
+  CHECK(most < 1e-4 * q * scene.particles.spacing);  // by what is left deeper than the search for the surface
+  // Each stretch has the force of its length, but for what its neighbours carry of it.
+  for (const LoadedParticles& l : loads)
+    CHECK(total_force(std::span(&l, 1), 0).norm() == Approx(q * 2 * 2.5 * std::sin(turn / 2)).epsilon(0.1));
 }
 
 TEST_CASE("a load's force is that of its traction over its stretch and over time", "[load]") {
