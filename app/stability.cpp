@@ -70,7 +70,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "without a sweep file: a setting and its values; twice for a map of two settings")(
       "set", po::value(&overrides)->value_name("KEY=VALUE"),
       "replaces a setting of all runs; may be given again")(
-      "reference", po::value<std::string>()->value_name("case|weight_above|fem"),
+      "reference", po::value<std::string>()->value_name("case|weight_above|fem|energy"),
       "what sigma'_yy at rest is compared with (default: the sweep's, or the exact solution that the case "
       "names)")("accurate-below", po::value<double>()->value_name("ERROR"),
                 "largest relative L2 error called accurate (default: the sweep's, or 0.02)")(
@@ -110,6 +110,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
 
 ErrorMeasure measure_of(SweepReference reference, const Case& scene) {
   if (reference == SweepReference::weight_above) return weight_measure(scene);
+  if (reference == SweepReference::energy) return energy_measure(scene);
 #ifdef POROSPH_HAS_VTK
   if (reference == SweepReference::fem) return fem_measure(scene);
 #else

@@ -114,6 +114,22 @@ void check_flow(const Case& c, std::vector<std::string>& out) {
   }
 }
 
+/// failure_shape_dilation: 5 degrees and more break down, 0 does not.
+void check_dilation(const Case& c, std::vector<std::string>& out) {
+  const bool damped = c.loading.adaptive_damping || c.loading.damping > 0;
+  if (c.formulation.motion != Motion::consistent || damped || !c.loading.gravity_applied) return;
+  for (const SoilCase& soil : c.soils) {
+    const bool may = soil.law == LawKind::drucker_prager || soil.law == LawKind::mohr_coulomb;
+    const StrengthCase& s = soil.strength;
+    if (!may || s.dilation_angle == 0 || s.softening != SofteningKind::none) continue;
+    out.push_back(fmt::format(
+        "soil '{}' with dilation_angle = {:g}, without damping: where it flows it dilates without end, until "
+        "the run breaks down; with `softening` its dilation ends",
+        soil.name, s.dilation_angle));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> known_failures(const Case& scene) {
@@ -124,6 +140,7 @@ std::vector<std::string> known_failures(const Case& scene) {
   check_undamped(scene, warnings);
   check_disorder(scene, warnings);
   check_flow(scene, warnings);
+  check_dilation(scene, warnings);
   return warnings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/run/energy_budget.hpp"
 #include "solver/run/reference_errors.hpp"
 #include "solver/run/run.hpp"
 
@@ -44,6 +45,17 @@ ErrorMeasure weight_measure(const Case& scene) {
   at_end.water = at_rest_from(scene.water, scene.time.end);
   return [scene = at_end](const Simulation& s) {
     return vertical_stress_error(s, [&](const Vec2& x) { return k0_stress(scene, x, 0).yy; });
+  };
+}
+
+ErrorMeasure energy_measure(const Case& scene) {
+  const double at_start = Simulation(scene).energy().total();
+  return [at_start](Simulation& s) {
+    const auto e = energy_budget(s, at_start);
+    if (!e || !(e->released > 0)) return none;
+    return (std::abs(e->control) + std::abs(e->diffusion) + std::abs(e->bulk_viscosity) +
+            std::abs(e->unaccounted)) /
+           e->released;
   };
 }
 

@@ -9,8 +9,8 @@
 
 namespace porosph {
 
-/// Relative L2 error of a state at rest.
-using ErrorMeasure = std::function<double(const Simulation&)>;
+/// Relative L2 error of a state at rest, or what stands for it.
+using ErrorMeasure = std::function<double(Simulation&)>;
 /// The measure for a case. May throw std::runtime_error where the case has no such reference.
 using MeasureMaker = std::function<ErrorMeasure(const Case&)>;
 
@@ -18,6 +18,9 @@ using MeasureMaker = std::function<ErrorMeasure(const Case&)>;
 ErrorMeasure exact_measure(const Case& scene);
 /// Against the weight above, which is exact for level ground and layers at small strain.
 ErrorMeasure weight_measure(const Case& scene);
+/// What of the energy released the zero-energy control, viscosity, the diffusion of stress and the
+/// integration took: of soil that flows without damping.
+ErrorMeasure energy_measure(const Case& scene);
 /// Of stress `exact(start)` [Pa] at the particles' positions at t = 0; where it is not finite the particle
 /// does not count.
 double vertical_stress_error(const Simulation& simulation, const std::function<double(const Vec2&)>& exact);

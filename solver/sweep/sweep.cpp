@@ -16,7 +16,7 @@ namespace porosph {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::array<std::string_view, 3> references = {"case", "weight_above", "fem"};
+constexpr std::array<std::string_view, 4> references = {"case", "weight_above", "fem", "energy"};
 
 /// Reads the tables of a sweep file; every complaint names the place.
 class SweepReader {

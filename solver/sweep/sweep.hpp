@@ -25,6 +25,7 @@ enum class SweepReference {
   from_case,     ///< the exact solution that the case names
   weight_above,  ///< the weight of soil and water above each particle: level ground and layers
   fem,           ///< finite elements
+  energy,        ///< nothing: what numerics took of the energy released stands for the error
 };
 
 struct SweepLimits {

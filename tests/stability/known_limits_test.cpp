@@ -33,9 +33,10 @@ std::vector<StabilityClass> outcomes(Sweep sweep, const std::vector<std::size_t>
   std::vector<SweepValue> chosen;
   for (const std::size_t i : places) chosen.push_back(sweep.x.values[i]);
   sweep.x.values = chosen;
-  const bool by_weight = sweep.reference == SweepReference::weight_above;
-  const auto verdicts = run_sweep(sweep, by_weight ? weight_measure : exact_measure,
-                                  static_cast<int>(std::thread::hardware_concurrency()), {});
+  const auto measure = sweep.reference == SweepReference::weight_above ? weight_measure
+                       : sweep.reference == SweepReference::energy     ? energy_measure
+                                                                       : exact_measure;
+  const auto verdicts = run_sweep(sweep, measure, static_cast<int>(std::thread::hardware_concurrency()), {});
   std::vector<StabilityClass> out;
   for (const auto& v : verdicts) out.push_back(v.value().outcome);
   return out;
@@ -88,4 +89,8 @@ TEST_CASE("the largest disorder without closed gradients is that of the map", "[
 
 TEST_CASE("how high water may stand with the conventional form is what the map says", "[limits]") {
   check_limit(row("water_formulation", true, "eq. (17)"), "suction");
+}
+
+TEST_CASE("soil that flows and dilates without end breaks down, as the map says", "[limits]") {
+  check_limit(row("failure_shape_dilation", false, "1"), "dilation_angle");
 }
