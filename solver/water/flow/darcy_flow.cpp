@@ -161,9 +161,13 @@ std::vector<double> DarcyFlow::through_patches(std::span<const double> head,
       });
     }
   }
-  for (std::size_t patch = 0; patch < through.size(); ++patch)
-    if (fed_by_patch_[patch] >= 0)
-      through[patch] += faces.rate(static_cast<std::int32_t>(patch)) * patch_length_[patch];
+  for (std::size_t patch = 0; patch < through.size(); ++patch) {
+    const std::int32_t fed = fed_by_patch_[patch];
+    if (fed < 0) continue;
+    const double supplied = faces.rate(static_cast<std::int32_t>(patch)) * patch_length_[patch];
+    through[patch] += supplied;
+    if (pinned_by[fed] >= 0) through[pinned_by[fed]] -= supplied;  // what holds its head takes it
+  }
   return through;
 }
 

@@ -20,6 +20,10 @@ class Retention {
     double slope;  ///< dkr/dpsi [1/m]
   };
   Permeability permeability(double psi) const;
+  /// Whether Se is a smooth curve that has no end.
+  bool is_curved() const {
+    return soil_.model == RetentionModel::gardner || soil_.model == RetentionModel::van_genuchten;
+  }
   double saturation(double psi) const;  ///< Se [-]
   struct Stored {
     double saturation;  ///< [-]

@@ -13,20 +13,30 @@ namespace porosph {
 namespace {
 
 constexpr double gamma_of_sdirk = 1 - 1 / std::numbers::sqrt2;
-constexpr double balanced = 1e-9;  // of the pores: what a stage may leave
+constexpr double balanced = 1e-9;         // of the pores: what a stage may leave
+constexpr double nearly_balanced = 1e-7;  // the same where Newton's method gets no further
 constexpr double krylov_tolerance = 1e-4;
-constexpr int most_newton = 50, most_flips = 3, most_halvings = 8;
+constexpr int most_newton = 50, most_secants = 8, most_flips = 3, most_halvings = 8;
 constexpr int tries_of_mean = 4;  // of a step, before kr of where water comes from is taken
+constexpr double first_dry = 0.95, first_wet = 0.05, kept_share = 0.3;  // of saturation, in a Newton step
 constexpr double most_error = 4;  // over the tolerance, of a step that is kept
 
-/// psi after a change that Newton's method asks for. Dry soil takes up little at first: there the change
-/// holds for its saturation, not for psi, which would go far beyond what fills the pores.
+/// psi after a change that Newton's method asks for. Curves that are flat where the soil is full and where it
+/// is dry would lead too far from there: a change takes no more than a part of what a particle has, and in
+/// dry soil no more than what fills it.
 double changed(const Retention& soil, double psi, double change) {
-  if (psi >= 0 || !(change > 0)) return psi + change;
   const Retention::Stored s = soil.stored(psi);
+  const double asked = psi + change;
+  if (change < 0) {
+    if (asked >= 0 || !soil.is_curved()) return asked;
+    const double least = psi >= 0 ? first_dry : s.saturation * kept_share;
+    return least > 0 ? std::max(asked, soil.pressure_head(least)) : asked;
+  }
+  if (psi >= 0) return asked;
+  if (!(s.slope > 0)) return std::min(asked, soil.pressure_head(std::lerp(s.saturation, 1, first_wet)));
+  if (asked < 0.5 * psi) return asked;
   const double wanted = s.saturation + s.slope * change;
-  if (!(s.slope > 0) || psi + change < 0.5 * psi) return psi + change;
-  return std::min(psi + change, wanted < 1 ? std::max(psi, soil.pressure_head(wanted)) : 0);
+  return std::min(asked, wanted < 1 ? std::max(psi, soil.pressure_head(wanted)) : 0);
 }
 
 }  // namespace
@@ -62,8 +72,8 @@ Richards::Balance Richards::balance() const {
 }
 
 /// known + tau R(h) - W(h) and its slope; returns its root mean square over the pores [-].
-double Richards::assemble(std::span<const double> known, double tau) {
-  flow_.assemble(head_, faces_, DarcyFlow::Slope::newton, work_.slope, work_.inflow);
+double Richards::assemble(std::span<const double> known, double tau, DarcyFlow::Slope kind) {
+  flow_.assemble(head_, faces_, kind, work_.slope, work_.inflow);
   work_.pinned = flow_.pinning_patches(faces_);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < head_.size(); ++a) {
@@ -79,36 +89,59 @@ double Richards::assemble(std::span<const double> known, double tau) {
   return std::sqrt(squares / static_cast<double>(head_.size()));
 }
 
-/// One step of Newton's method, as long as it lessens what is left.
-bool Richards::improve(std::span<const double> known, double tau, double& size) {
+/// The change of heads that what is assembled asks for; false where there is none.
+bool Richards::find_change() {
   std::ranges::fill(work_.change, 0.0);
   const int most = static_cast<int>(20 * std::sqrt(static_cast<double>(head_.size())) + 1000);
   const KrylovResult solved = bicgstab(work_.slope, work_.residual, work_.change, krylov_tolerance, most);
   ++counts_.newton_steps, counts_.krylov_iterations += solved.iterations;
-  if (!std::isfinite(solved.residual)) return false;
+  return std::isfinite(solved.residual);
+}
+
+void Richards::change_heads(std::span<const double> before, double share) {
+  for (std::size_t a = 0; a < before.size(); ++a) {
+    const double y = flow_.height(a);
+    head_[a] = y + changed(flow_.retention(a), before[a] - y, share * work_.change[a]);
+  }
+}
+
+/// One step of Newton's method, as long as it lessens what is left. Returns false, and leaves the heads as
+/// they were, where it does not.
+bool Richards::improve(std::span<const double> known, double tau, double& size) {
+  if (!find_change()) return false;
   const std::vector<double> before = head_;
   double share = 1;
   for (int halvings = 0; halvings < most_halvings; ++halvings, share /= 2) {
-    for (std::size_t a = 0; a < before.size(); ++a) {
-      const double y = flow_.height(a);
-      head_[a] = y + changed(flow_.retention(a), before[a] - y, share * work_.change[a]);
-    }
-    const double next = assemble(known, tau);
+    change_heads(before, share);
+    const double next = assemble(known, tau, DarcyFlow::Slope::newton);
     if (next < size) return size = next, true;
   }
+  head_ = before;
+  assemble(known, tau, DarcyFlow::Slope::newton);
   return false;
+}
+
+/// One step with kr as it is (Picard's, of the mixed form), taken whole: out of where Newton's method stops.
+bool Richards::step_by_secant(std::span<const double> known, double tau, double& size) {
+  assemble(known, tau, DarcyFlow::Slope::secant);
+  if (!find_change()) return false;
+  change_heads(std::vector<double>(head_), 1);
+  size = assemble(known, tau, DarcyFlow::Slope::newton);
+  return true;
 }
 
 bool Richards::solve(std::span<const double> known, double tau, double time) {
   faces_.set_time(time_ = time);
   FaceSwitch faces(flow_, faces_.size(), most_flips);
   flow_.pin(head_, faces_);
-  double size = assemble(known, tau);
+  double size = assemble(known, tau, DarcyFlow::Slope::newton);
+  int secants = 0;
   for (int i = 0; i < most_newton && std::isfinite(size); ++i) {
     if (size > balanced && improve(known, tau, size)) continue;
-    if (!faces.update(head_, faces_, work_.storing)) return size <= 100 * balanced;
+    if (size > nearly_balanced && secants++ < most_secants && step_by_secant(known, tau, size)) continue;
+    if (!faces.update(head_, faces_, work_.storing)) return size <= nearly_balanced;
     flow_.pin(head_, faces_);
-    size = assemble(known, tau);
+    size = assemble(known, tau, DarcyFlow::Slope::newton);
   }
   return false;
 }

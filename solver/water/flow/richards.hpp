@@ -86,7 +86,10 @@ class Richards {
 
  private:
   bool solve(std::span<const double> known, double tau, double time);
-  double assemble(std::span<const double> known, double tau);
+  double assemble(std::span<const double> known, double tau, DarcyFlow::Slope kind);
+  bool find_change();
+  void change_heads(std::span<const double> before, double share);
+  bool step_by_secant(std::span<const double> known, double tau, double& size);
   bool improve(std::span<const double> known, double tau, double& size);
   bool try_step(double now, double step, std::vector<double>& first, std::vector<double>& through);
   void keep(double step, const std::vector<double>& through);

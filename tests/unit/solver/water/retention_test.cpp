@@ -39,3 +39,18 @@ TEST_CASE("the slope of kr is its derivative", "[water]") {
   CHECK(soil.permeability(3).kr == 1);
   CHECK(soil.saturation(1) == 1);
 }
+
+TEST_CASE("kr is continuous and has a slope up to saturation", "[water]") {
+  const double n = GENERATE(1.09, 1.56, 2.0, 2.68);
+  const Retention soil({.model = RetentionModel::van_genuchten, .alpha = 2, .n = n}, 0.5);
+  double before = 1;
+  for (const double psi : {-1e-17, -1e-9, -4.999e-4, -5.001e-4, -1e-3}) {
+    const Retention::Permeability p = soil.permeability(psi);
+    CAPTURE(n, psi);
+    CHECK(std::isfinite(p.slope));
+    CHECK(p.slope >= 0);
+    CHECK(p.kr <= before);
+    before = p.kr;
+  }
+  CHECK(soil.permeability(-5.001e-4).kr == Approx(soil.permeability(-4.999e-4).kr).epsilon(1e-3));
+}

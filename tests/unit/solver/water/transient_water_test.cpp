@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "solver/case/case_file.hpp"
 #include "solver/run/kept_state.hpp"
@@ -69,6 +70,28 @@ TEST_CASE("seepage over time becomes steady", "[water]") {
   // What passes the middle is what enters on the left and leaves on the right.
   CHECK(there.record()->through_sections[0] == Approx(there.record()->through_faces[1]).epsilon(1e-7));
   CHECK(there.record()->through_sections[0] == Approx(-there.record()->through_faces[2]).epsilon(1e-7));
+}
+
+TEST_CASE("a level that rises and falls fills the soil and drains it in few steps", "[water]") {
+  const auto [alpha, n, k] = GENERATE(std::tuple(0.8, 1.09, 5e-8), std::tuple(3.6, 1.56, 3e-6),
+                                      std::tuple(2.0, 2.0, 1e-5), std::tuple(14.5, 2.68, 8e-5));
+  CAPTURE(alpha, n);
+  Case scene = over_time(1, 2, 0.1);
+  scene.soils[0].permeability = {k, k};
+  scene.soils[0].retention.alpha = alpha, scene.soils[0].retention.n = n;
+  scene.water.transient.start_level = 0.7;  // psi = 0 to rounding in a row of particles
+  HydraulicFaceCase side = head_face({0, 0}, {0, 2}, HydraulicFaceCase::unset);
+  side.level_over_time = {{0, 0.7}, {3600, 1.5}, {86400, 1.5}, {90000, 0.3}};
+  scene.water.faces.push_back(side);
+  scene.water.faces.push_back({.kind = FaceKind::seepage, .from = {0, 2}, .to = {1, 2}});
+  Flow flow(scene);
+  flow.run(86400);
+  CHECK(flow.water.record()->through_faces[2] <= 1e-15);  // nothing enters a seepage face
+  flow.run(10 * 86400);
+  CHECK(flow.water.record()->through_faces[1] < 0);
+  CHECK(flow.water.record()->through_faces[2] <= 1e-15);
+  CHECK(std::abs(flow.water.richards().balance().error()) < 1e-8);
+  CHECK(flow.water.richards().counts().steps < 2000);  // the coarse sand takes about 1000
 }
 
 TEST_CASE("the level of a face that changes is felt at its time", "[water]") {
