@@ -94,6 +94,18 @@ TEST_CASE("a level that rises and falls fills the soil and drains it in few step
   CHECK(flow.water.richards().counts().steps < 2000);  // the coarse sand takes about 1000
 }
 
+TEST_CASE("water that finds no room is told with its place and time", "[water]") {
+  Case scene = over_time(1, 2, 0.25);
+  scene.water.transient.start_level = 3;  // full
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.water.faces = {{.kind = FaceKind::closed}};
+  scene.water.faces.push_back({.kind = FaceKind::flux, .from = {0, 0}, .to = {1, 0}, .rate = 1e-6});
+  Flow flow(scene);
+  CHECK_THROWS_WITH(flow.run(3600), Catch::StartsWith("seepage over time does not converge at 0.0") &&
+                                        Catch::Contains(" s around (0.") &&
+                                        Catch::Contains("in steps down to 0.0086 s"));
+}
+
 TEST_CASE("the level of a face that changes is felt at its time", "[water]") {
   Case scene = over_time(0.4, 2, 0.1);
   scene.water.transient.start_level = 2.5;
