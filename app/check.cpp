@@ -41,8 +41,13 @@ double seconds_per_step(Simulation& s) {
 void print(std::string_view name, const std::string& text) { fmt::print("{:18}{}\n", name, text); }
 
 void print_water(const Case& scene) {
-  if (scene.water.mode == WaterMode::steady)
-    return print("water", fmt::format("flows steadily between {} faces", scene.water.faces.size()));
+  const bool transient = scene.water.mode == WaterMode::transient;
+  if (transient || scene.water.mode == WaterMode::steady)
+    return print(
+        "water",
+        fmt::format(
+            "flows {} between {} faces{}", transient ? "over time" : "steadily", scene.water.faces.size(),
+            scene.water.drains.empty() ? "" : fmt::format(" and {} drains", scene.water.drains.size())));
   if (!scene.water.present()) return print("water", "none");
   double whole = 0, wet = 0;
   for (const SoilCase& soil : scene.soils) {
@@ -128,6 +133,7 @@ void print_model(const Simulation& s) {
   print_settings(s.scene());
   print("wave speed c_p", fmt::format("{:.4g} m/s", m.wave_speed));
   if (s.consolidation() != nullptr) return print_consolidation(s);
+  if (s.seepage() != nullptr) return;
   print("time step",
         fmt::format("{:.4g} s, {} steps to {:g} s", s.time_step(), s.last_step(), s.scene().time.end));
 }
@@ -200,7 +206,7 @@ void tell_tried(const Case& whole) {
   warn(warnings_of(simulation.model(), scene));
   warn_of_smaller_steps(simulation);
   print_model(simulation);
-  if (simulation.consolidation() != nullptr) return;
+  if (simulation.follows_flow()) return;
   const double per_step = seconds_per_step(simulation);
   if (!whole.stages.empty())
     return print_stages(whole, per_step / static_cast<double>(simulation.model().particles.size()));
@@ -219,7 +225,7 @@ Case first_stage(const Case& scene) {
 void tell_large(const Case& scene, const Demand& demand) {
   print("particles", fmt::format("about {:.3g}", demand.particles));
   print_settings(scene);
-  if (scene.water.couples()) return;
+  if (scene.water.flows_over_time()) return;
   print("time step", fmt::format("about {:.3g} s, {:.3g} steps to {:g} s", scene.time.end / demand.steps,
                                  demand.steps, scene.time.end));
   try {

@@ -8,6 +8,7 @@
 #include "app/picture_options.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/stress_paths.hpp"
+#include "render/run/water_curves.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
@@ -25,8 +26,9 @@ std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
   po::options_description options;
   options.add_options()("run", po::value(&o.runs)->required(), "folders of runs")(
-      "show", po::value(&o.show)->value_name("stress|settlement|pq|st|mohr")->default_value("stress"),
-      "vertical effective stress or settlement over time, stress paths q over p' or t over s', or Mohr's "
+      "show", po::value(&o.show)->value_name("stress|settlement|water|pq|st|mohr")->default_value("stress"),
+      "vertical effective stress or settlement over time, the balance and discharge of water, stress paths q "
+      "over p' or t over s', or Mohr's "
       "circle "
       "at the end; with the strength of the soil around the probe")(
       "probe", po::value(&o.probes)->value_name("NAME"), "only this one; may be given again (default: all)")(
@@ -63,6 +65,15 @@ void choose_probes(std::vector<FinishedRun>& runs, const std::vector<std::string
   }
 }
 
+std::vector<Chart> water_charts(const std::vector<FinishedRun>& runs) {
+  std::vector<Chart> charts = water_curves(runs, run_labels(runs));
+  if (charts.empty())
+    throw UsageError(
+        fmt::format("{}: its history has no water that flows over time (water.mode = \"transient\")",
+                    runs.front().folder.string()));
+  return charts;
+}
+
 std::vector<Chart> charts_of(const std::vector<FinishedRun>& runs, const std::string& show) {
   static const std::map<std::string, PathKind> paths = {
       {"pq", PathKind::pq}, {"st", PathKind::st}, {"mohr", PathKind::mohr}};
@@ -71,7 +82,7 @@ std::vector<Chart> charts_of(const std::vector<FinishedRun>& runs, const std::st
     return stress_paths(runs, labels, kind->second);
   if (show == "stress") return stress_histories(runs, labels);
   if (show == "settlement") return settlement_curves(runs, labels);
-  throw UsageError(fmt::format("--show = {}: must be stress, settlement, pq, st or mohr", show));
+  throw UsageError(fmt::format("--show = {}: must be stress, settlement, water, pq, st or mohr", show));
 }
 
 }  // namespace
@@ -82,8 +93,8 @@ int history_command(const Arguments& arguments) {
   std::vector<FinishedRun> runs;
   for (const std::string& folder : o->runs) runs.push_back(open_run(folder));
   set_labels(runs, o->labels);
-  choose_probes(runs, o->probes);
-  std::vector<Chart> charts = charts_of(runs, o->show);
+  if (o->show != "water") choose_probes(runs, o->probes);
+  std::vector<Chart> charts = o->show == "water" ? water_charts(runs) : charts_of(runs, o->show);
   const fs::path path =
       o->out.empty() ? runs.front().folder / fmt::format("history_{}.png", o->show) : fs::path(o->out);
   require_picture_name(path);

@@ -39,6 +39,14 @@ void Progress::show(const Simulation& s) {
     line_open_ = terminal_;
     return;
   }
+  if (s.seepage() != nullptr) {
+    const std::string line =
+        fmt::format("t = {:.6g} of {:g} s   flow step {}   {} sweeps of the soil", s.time(),
+                    s.scene().time.end, s.seepage()->richards().counts().steps, s.settling_sweeps());
+    say(stderr, terminal_ ? "\r" + line + "\x1b[K" : line + "\n");
+    line_open_ = terminal_;
+    return;
+  }
   const std::string line =
       fmt::format("t = {:.4f} of {:g} s   step {} of {}   {:.2f} M particle-steps/s   {} left", s.time(),
                   s.scene().time.end, s.step(), s.last_step(), rate / 1e6, clock_text(left));

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -48,7 +49,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "style", po::value(&o.style)->value_name("particles|bands|isolines")->default_value("particles"),
       "each particle in its colour, bands of colour with labelled isolines, or isolines on the particles")(
       "arrows", po::value(&o.arrows)->value_name("NAME"),
-      "arrows of a vector on top: Displacement or Velocity")(
+      "arrows of a vector on top: Displacement, Velocity, DarcyVelocity or HydraulicGradient")(
       "crosses", po::bool_switch(&o.crosses),
       "principal effective stresses on top: blue in compression, red in tension")(
       "range", po::value(&o.range)->value_name("LOW,HIGH"),
@@ -206,8 +207,10 @@ int render_command(const Arguments& arguments) {
   if (!o) return Exit::done;
   const FieldSelection selection = parse_selection(o->field);
   const FieldStyle style = read_style(o->style);
-  if (!o->arrows.empty() && o->arrows != "Displacement" && o->arrows != "Velocity")
-    throw UsageError(fmt::format("--arrows = {}: must be Displacement or Velocity", o->arrows));
+  static const std::array<std::string_view, 4> vectors{"Displacement", "Velocity", "DarcyVelocity",
+                                                       "HydraulicGradient"};
+  if (!o->arrows.empty() && std::ranges::find(vectors, o->arrows) == vectors.end())
+    throw UsageError(fmt::format("--arrows = {}: must be {}", o->arrows, fmt::join(vectors, ", ")));
   FinishedRun run = open_run(o->series);
   if (!o->label.empty()) run.label = o->label;
   const std::vector<std::size_t> frames = choose_frames(run.series, o->times);

@@ -172,8 +172,9 @@ std::optional<HandedOver> state_to_start_from(const Options& o, const Task& task
 
 void tell_beginning(const Options& o, const StagedRun& run, bool continues) {
   const Simulation& s = run.simulation();
-  say(stdout, fmt::format("{}: {} particles, {} steps to {:g} s, results in {}\n", s.scene().title,
-                          s.model().particles.size(), s.last_step(), s.scene().time.end, o.folder.string()));
+  const std::string steps = s.follows_flow() ? "flow steps" : fmt::format("{} steps", s.last_step());
+  say(stdout, fmt::format("{}: {} particles, {} to {:g} s, results in {}\n", s.scene().title,
+                          s.model().particles.size(), steps, s.scene().time.end, o.folder.string()));
   if (o.resume)
     say(stdout, continues ? fmt::format("continues from {:.6g} s\n", s.time())
                           : "there is no checkpoint to continue from: starts at the beginning\n");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/interruption.hpp"
@@ -17,6 +18,7 @@
 #include "solver/case/stages.hpp"
 #include "solver/printable.hpp"
 #include "solver/reference/limit_equilibrium/section_of_case.hpp"
+#include "solver/water/transient_water.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
 #include "vtk_io/run_folder/safety_files.hpp"
@@ -38,6 +40,7 @@ struct Options {
   std::string case_file, folder, method;
   std::vector<std::string> overrides;
   double bracket = 0.01;
+  std::optional<double> at;  // s
   int jobs = 1;
   bool quiet = false, force = false;
   std::optional<double> then_run;  // factor; 0: the smallest at which it fails
@@ -48,6 +51,7 @@ struct Options {
 
 std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
+  double at = 0;
   po::options_description options;
   options.add_options()("case", po::value(&o.case_file)->required(), "the case file")(
       "out", po::value(&o.folder)->value_name("DIR"),
@@ -57,6 +61,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "strength reduction in the particles, limit equilibrium on slip surfaces, or both")(
       "bracket", po::value(&o.bracket)->value_name("WIDTH")->default_value(0.01, "0.01"),
       "how close to each other the factors shall be at which the body rests and fails")(
+      "at", po::value(&at)->value_name("SECONDS"),
+      "the time at which seepage over time is taken (default: the end)")(
       "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
       "replaces a setting of the case; may be given again");
   add_jobs(options, o.jobs, "factors tried at a time");
@@ -81,6 +87,7 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (!(o.bracket >= 1e-4 && o.bracket <= 1))
     throw UsageError(fmt::format("--bracket = {}: must be from 0.0001 to 1", o.bracket));
   check_jobs(o.jobs);
+  if (values.count("at") > 0) o.at = at;
   o.quiet = values.count("quiet") > 0, o.force = values.count("force") > 0;
   if (values.count("then-run") > 0) o.then_run = values["then-run"].as<double>();
   if (o.then_run && !o.by_particles())
@@ -107,9 +114,15 @@ void check_water(const Case& scene, const Options& o) {
     throw UsageError(
         "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
         "--method strength-reduction does");
+  const bool transient = scene.water.mode == WaterMode::transient;
+  if (o.at && !transient) throw UsageError("--at: is for seepage over time, water.mode = \"transient\"");
+  if (o.at && !(*o.at >= 0 && *o.at <= scene.time.end))
+    throw UsageError(fmt::format("--at = {}: must be from 0 to time.end = {} s", *o.at, scene.time.end));
   if (!scene.footings.empty() && o.by_limit_equilibrium())
     throw UsageError(
         "safety: limit equilibrium knows no footing ([[footing]]); --method strength-reduction does");
+  if (o.then_run && transient)
+    throw UsageError("--then-run is not for seepage over time, water.mode = \"transient\"");
   if (!scene.water.flows()) return;
   if (scene.water.couples())
     throw UsageError(
@@ -119,10 +132,24 @@ void check_water(const Case& scene, const Options& o) {
                     name(scene.water.mode)));
   if (!o.by_particles())
     throw UsageError(
-        "safety: limit equilibrium is for still water, but water.mode is \"steady\"; "
-        "--method strength-reduction takes the water that flows");
+        fmt::format("safety: limit equilibrium is for still water, but water.mode is \"{}\"; "
+                    "--method strength-reduction takes the water that flows",
+                    name(scene.water.mode)));
   if (o.by_limit_equilibrium() && !o.quiet)
     say(stdout, "note: limit equilibrium is for still water and is left out\n");
+}
+
+/// The flow as it is at that time holds in all trials.
+void flow_until(double time, Case& scene, bool quiet) {
+  const Model model = build_model(scene);
+  auto& water = dynamic_cast<TransientWater&>(*model.pore_water);
+  const Stopwatch watch;
+  for (double now = 0; now < time && !is_interrupted();) now = water.advance(now, time);
+  const auto head = water.richards().head();
+  scene.flow = std::make_shared<GivenFlow>(GivenFlow{{head.begin(), head.end()}, time});
+  if (!quiet)
+    say(stdout, fmt::format("seepage to {:g} s: {} flow steps, {:.2f} s\n", time,
+                            water.richards().counts().steps, watch.seconds()));
 }
 
 void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {
@@ -184,7 +211,7 @@ void write([[maybe_unused]] const Case& scene, const SafetyAnswer& answer,
 int safety_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
-  const Case scene = read_case(find_case(o->case_file), o->overrides);
+  Case scene = read_case(find_case(o->case_file), o->overrides);
   check_soils(scene);
   check_water(scene, *o);
   const fs::path folder = o->folder.empty()
@@ -192,12 +219,15 @@ int safety_command(const Arguments& arguments) {
                               : fs::path(o->folder);
   catch_interruptions();
   const std::string case_text = write_case(scene);
+  const bool over_time = scene.water.mode == WaterMode::transient;
   const FolderLock lock(folder);
   if (!o->force) check_owner(folder, case_text, true);
   SafetyAnswer answer;
   answer.title = scene.title;
   answer.warnings = warnings_of(scene);
   warn(answer.warnings);
+  if (over_time) flow_until(o->at.value_or(scene.time.end), scene, o->quiet);
+  if (is_interrupted()) return Exit::interrupted;
   if (!scene.water.flows()) find_by_limit_equilibrium(scene, answer);
   if (!answer.limit_equilibrium && !o->by_particles())
     throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");

@@ -45,6 +45,8 @@ std::string tell(const Summary::Seepage& seepage) {
   std::string text = "water through the faces";
   for (std::size_t i = 0; i < seepage.through_faces.size(); ++i)
     text += fmt::format("{} [{}] {:.4g}", i == 0 ? "" : ",", i, seepage.through_faces[i]);
+  for (const auto& [name, discharge] : seepage.sections)
+    text += fmt::format(", section {} {:.4g}", name, discharge);
   return text + fmt::format(" m2/s, out of balance by {:.0e} of what enters\n", std::abs(seepage.imbalance));
 }
 
@@ -56,6 +58,31 @@ std::string tell(const Summary::Consolidation& c) {
       static_cast<double>(c.krylov_iterations) /
           static_cast<double>(std::max<std::int64_t>(1, c.pressure_solves)),
       c.soil_sweeps, c.drained, std::abs(c.imbalance));
+}
+
+std::string tell(const Summary::TransientSeepage& c) {
+  return fmt::format(
+      "{} flow steps, {} refused, of {:.3g} Newton steps and {:.3g} iterations; {} sweeps of the soil\n"
+      "{:.4g} m2 of water have entered, {:.4g} m2 left, the soil gained {:.4g} m2; out of balance by "
+      "{:.0e}\n",
+      c.flow_steps, c.refused_steps,
+      static_cast<double>(c.newton_steps) / static_cast<double>(std::max<std::int64_t>(1, c.flow_steps)),
+      static_cast<double>(c.krylov_iterations) / static_cast<double>(std::max<std::int64_t>(1, c.flow_steps)),
+      c.soil_sweeps, c.entered, c.left, c.gained, std::abs(c.imbalance));
+}
+
+Summary::TransientSeepage transient_summary(const Simulation& s) {
+  const Richards& flow = s.seepage()->richards();
+  const Richards::Balance balance = flow.balance();
+  return {flow.counts().steps,
+          flow.counts().refused,
+          flow.counts().newton_steps,
+          flow.counts().krylov_iterations,
+          s.settling_sweeps(),
+          balance.entered,
+          balance.left,
+          balance.gained,
+          balance.error()};
 }
 
 std::string tell(const std::vector<Summary::Stage>& stages) {
@@ -104,6 +131,12 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
     summary.consolidation = {counts.flow_steps,  counts.pressure_solves, counts.krylov_iterations,
                              counts.soil_sweeps, c->drained(),           c->imbalance()};
   }
+  if (s.seepage() != nullptr) {
+    summary.transient = transient_summary(s);
+    summary.steps = summary.transient->flow_steps;
+    particle_steps = summary.particles * summary.transient->soil_sweeps;
+    summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, summary.steps));
+  }
   summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
@@ -122,8 +155,11 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
                       .x = zigzag.where.x(),
                       .y = zigzag.where.y()};
   }
-  if (const FlowRecord* flow = s.model().pore_water->record())
+  if (const FlowRecord* flow = s.model().pore_water->record()) {
     summary.seepage = {flow->through_faces, flow->imbalance, flow->newton_steps, flow->krylov_iterations};
+    for (std::size_t i = 0; i < flow->through_sections.size(); ++i)
+      summary.seepage->sections[s.scene().sections[i].name] = flow->through_sections[i];
+  }
   summary.probes = probe_readings(s);
   if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
@@ -159,6 +195,7 @@ std::string tell(const Summary& s) {
         100 * s.energy->unaccounted / s.energy->released);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
+  if (s.transient) text += tell(*s.transient);
   text += tell(s.stages);
   for (const auto& [name, probe] : s.probes)
     if (std::isnan(probe.values.at("Displacement_Y")))

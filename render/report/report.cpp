@@ -270,6 +270,11 @@ std::string probe_section(const Material& m) {
   return html::section("Probes", pictures_of(histories) + html::table(probe_table(m.runs, m.input.fem)));
 }
 
+std::string water_section(const Material& m) {
+  auto picture = draw_water(m.input.runs, m.labels, m.folder);
+  return picture ? html::section("Water", pictures_of({std::move(*picture)})) : "";
+}
+
 std::string difference_sections(const Material& m) {
   std::string body;
   if (const Rows rows = water_table(m.runs); rows.size() > 1)
@@ -308,7 +313,8 @@ std::string body_of(const Material& m) {
   std::string body = html::section("Runs", html::table(run_table(m.runs)));
   body += stages_section(m.labels, summaries_of(m));
   body += html::section("The case", pictures_of({draw_case(m.runs.front(), m.folder)}));
-  body += stress_sections(m) + probe_section(m) + difference_sections(m) + development_section(m);
+  body += stress_sections(m) + probe_section(m) + water_section(m) + difference_sections(m) +
+          development_section(m);
   if (const Rows rows = settings_table(m.runs); rows.size() > 1)
     body += html::section("Settings that differ", html::table(rows, false));
   for (std::size_t i = 0; i < m.input.studies.size(); ++i)

@@ -11,6 +11,7 @@
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
 #include "render/run/stress_paths.hpp"
+#include "render/run/water_curves.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
@@ -215,6 +216,17 @@ std::optional<ReportPicture> draw_settlement(const std::vector<FinishedRun>& run
   if (charts.empty()) return std::nullopt;
   return draw(ChartFigure{.title = "Settlement over time", .charts = std::move(charts)}, folder, "settlement",
               "Settlement over time at the probes", "How far the probes have moved downwards.");
+}
+
+std::optional<ReportPicture> draw_water(const std::vector<FinishedRun>& runs,
+                                        const std::vector<std::string>& labels, const fs::path& folder) {
+  std::vector<Chart> charts = water_curves(runs, labels);
+  if (charts.empty()) return std::nullopt;
+  return draw(
+      ChartFigure{.title = "Water over time", .charts = std::move(charts)}, folder, "water",
+      "Water that entered and left, and discharge over time",
+      "Water that entered and left through faces and drains since the start and that the soil gained, and "
+      "what passes faces, drains and sections with a name.");
 }
 
 std::optional<ReportPicture> draw_stress_paths(const std::vector<FinishedRun>& runs,

@@ -61,6 +61,11 @@ std::optional<ReportPicture> draw_settlement(const std::vector<FinishedRun>& run
                                              const std::vector<std::string>& labels,
                                              const std::filesystem::path& folder);
 
+/// The balance of water and discharge over time; none where no run has them in its history.
+std::optional<ReportPicture> draw_water(const std::vector<FinishedRun>& runs,
+                                        const std::vector<std::string>& labels,
+                                        const std::filesystem::path& folder);
+
 /// p'-q and s'-t paths and Mohr's circle at each probe in soil that has a strength; none where there is none.
 std::optional<ReportPicture> draw_stress_paths(const std::vector<FinishedRun>& runs,
                                                const std::vector<std::string>& labels,

@@ -13,6 +13,7 @@
 #include "render/run/stage_scene.hpp"
 #include "render/run/water_around.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/water/flow/face_conditions.hpp"
 #include "solver/water/standing_water.hpp"
 
 namespace porosph {
@@ -57,9 +58,14 @@ Polygon subdivided(const Polygon& ring, double spacing) {
   return out;
 }
 
+bool seeps(const Case& scene) {
+  return scene.water.mode == WaterMode::steady || scene.water.mode == WaterMode::transient;
+}
+
 /// With the water level of that time [s].
 Case scene_at(Case scene, double time) {
   scene.water = at_rest_from(scene.water, time);
+  for (HydraulicFaceCase& face : scene.water.faces) face = face_now(face, time);
   return scene;
 }
 
@@ -69,7 +75,7 @@ Scenery scenery_of(const Case& scene) {
   Scenery scenery{
       .soils = {}, .water = scene.water.stretches, .boundaries = scene.boundaries, .probes = scene.probes};
   scenery.loads = scene.loads;
-  if (scene.water.mode == WaterMode::steady) scenery.water = water_beside_faces(scene);
+  if (seeps(scene)) scenery.water = water_beside_faces(scene);
   for (const SoilCase& soil : scene.soils) scenery.soils.push_back({soil.polygon, soil.holes});
   return scenery;
 }
@@ -149,7 +155,7 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
                            starts = knows_starts ? starts_of(frame) : positions;
   if (scene != nullptr) panel.particles.cells = drawn_cells(*scene, starts);
   if (then) panel.scenery = scenery_of(scene_at(*then, frame.time));
-  if (run.scene && run.scene->water.mode == WaterMode::steady && has(frame, "PressureHead"))
+  if (run.scene && seeps(*run.scene) && has(frame, "PressureHead"))
     panel.scenery.water_table = water_table(panel.particles.positions, values_of(frame, {"PressureHead", ""}),
                                             run.scene->particles.spacing);
   if (deformation != 1 && !knows_starts)

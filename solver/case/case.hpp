@@ -110,10 +110,14 @@ struct WaterCase {
   CouplingCase coupling = {};
   std::vector<HydraulicFaceCase> faces =
       {};  ///< of water that flows; of those that overlap the last one holds
+  TransientCase transient = {};
+  std::vector<DrainCase> drains = {};
   bool present() const { return !stretches.empty(); }  ///< it stands under a level
   bool flows() const { return mode != WaterMode::still; }
   /// Soil and water answer each other, both at rest all the while.
   bool couples() const { return mode == WaterMode::coupled || mode == WaterMode::undrained; }
+  /// Time is that of the flow, whose steps are as long as their error allows.
+  bool flows_over_time() const { return couples() || mode == WaterMode::transient; }
 };
 
 enum class BoundaryKind {
@@ -267,6 +271,7 @@ struct Case {
   CheckCase check;
   OutputCase output;
   std::vector<ProbeCase> probes;
+  std::vector<FlowSectionCase> sections = {};  ///< that water is counted at
   Reference reference = Reference::none;
   std::vector<StageCase> stages;  ///< that follow after what stands above has come to its end
   std::string start_from;         ///< folder of another run, whose last state this one begins with; or empty
@@ -274,6 +279,9 @@ struct Case {
   /// The case with the soils and boundaries of all stages, of which this one is a stage: particles are placed
   /// as that says. Null where there are no stages. Not part of the file.
   std::shared_ptr<const Case> plan;
+
+  /// The flow that holds all the time, in place of that of water.mode; null: none. Not part of the file.
+  std::shared_ptr<const GivenFlow> flow = {};
 
   double smoothing_length() const { return particles.smoothing_ratio * particles.spacing; }  ///< h [m]
 };

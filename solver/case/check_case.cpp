@@ -221,6 +221,9 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   check_names(c.soils, "soil", issues);
   check_names(c.probes, "probe", issues);
   check_names(c.loads, "load", issues);
+  check_names(c.sections, "section", issues);
+  check_names(c.water.faces, "water.face", issues);
+  check_names(c.water.drains, "water.drain", issues);
   check_names(c.footings, "footing", issues);
   const double end = latest_end(c);
   const double frames = c.output.interval > 0 ? end / c.output.interval : 0;
@@ -238,7 +241,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   if (!c.start_from.empty() && c.reference != Reference::none)
     issues.push_back(
         {"start_from", "does not go with 'reference', which is for a case that starts by itself"});
-  if (!c.start_from.empty() && c.water.couples())
+  if (!c.start_from.empty() && c.water.flows_over_time())
     issues.push_back({"start_from", fmt::format("does not go with water.mode = \"{}\"", name(c.water.mode))});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.soils[i].law == LawKind::cam_clay && c.soils[i].cam_clay.preconsolidation == 0 &&
@@ -250,7 +253,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
     if (c.boundaries[i].kind != BoundaryKind::friction) continue;
     if (c.formulation.motion != Motion::consistent)
       issues.push_back({at("boundary", i, "kind"), "\"friction\" needs formulation.motion = \"consistent\""});
-    if (c.water.couples())
+    if (c.water.flows_over_time())
       issues.push_back(
           {at("boundary", i, "kind"),
            fmt::format("\"friction\" does not go with water.mode = \"{}\"", name(c.water.mode))});

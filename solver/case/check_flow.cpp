@@ -13,7 +13,8 @@ using Issues = std::vector<CaseIssue>;
 
 /// Settings of soils that the mode of the water does not use.
 void check_unused(const Case& c, Issues& issues) {
-  const bool steady = c.water.mode == WaterMode::steady, seeps = steady || c.water.mode == WaterMode::coupled;
+  const bool steady = c.water.mode == WaterMode::steady, transient = c.water.mode == WaterMode::transient;
+  const bool seeps = steady || transient || c.water.mode == WaterMode::coupled;
   for (std::size_t i = 0; i < c.soils.size(); ++i) {
     const SoilCase& soil = c.soils[i];
     const auto unused = [&](bool given, std::string_view key, std::string_view mode) {
@@ -21,25 +22,57 @@ void check_unused(const Case& c, Issues& issues) {
         issues.push_back(
             {fmt::format("soil[{}].{}", i, key), fmt::format("is used only with water.mode = {}", mode)});
     };
-    unused(!seeps && soil.permeability.x() > 0, "permeability", "\"steady\" or \"coupled\"");
-    unused(!steady && soil.retention.model != RetentionModel::saturated, "retention", "\"steady\"");
-    unused(steady && soil.porosity > 0, "porosity", "\"coupled\" or \"undrained\"");
+    unused(!seeps && soil.permeability.x() > 0, "permeability", "\"steady\", \"coupled\" or \"transient\"");
+    unused(!steady && !transient && soil.retention.model != RetentionModel::saturated, "retention",
+           "\"steady\" or \"transient\"");
+    unused(steady && soil.porosity > 0, "porosity", "\"coupled\", \"undrained\" or \"transient\"");
+    const double porosity = soil.porosity > 0 ? soil.porosity : 0.4;
+    if (soil.retention.residual >= porosity)
+      issues.push_back({fmt::format("soil[{}].retention.residual", i),
+                        fmt::format("must be < {:g}, the porosity", porosity)});
   }
 }
 
+/// What changes over time does so in seepage over time alone.
+void check_constant(const Case& c, Issues& issues) {
+  for (std::size_t i = 0; i < c.water.faces.size(); ++i)
+    if (c.water.faces[i].changes())
+      issues.push_back(
+          {fmt::format("water.face[{}].{}", i,
+                       c.water.faces[i].level_over_time.empty() ? "rate_over_time" : "level_over_time"),
+           "needs water.mode = \"transient\""});
+}
+
+void check_transient(const Case& c, Issues& issues) {
+  if (c.loading.k0_stress)
+    issues.push_back(
+        {"loading.k0_stress", "is for water under a level: the soil comes to rest from no stress"});
+  if (c.loading.damping > 0 || c.loading.adaptive_damping)
+    issues.push_back({"loading.damping", "is not used with water.mode = \"transient\": the soil is at rest"});
+  if (!c.loading.gravity_applied && !c.water.transient.rigid)
+    issues.push_back({"loading.gravity_applied",
+                      "must be true with water.mode = \"transient\", or water.rigid_soil must be"});
+  const bool reached = !c.water.drains.empty() || std::ranges::any_of(c.water.faces, [](const auto& f) {
+    return f.kind != FaceKind::closed;
+  });
+  if (!reached) issues.push_back({"water", "needs a [[water.face]] or [[water.drain]] that water passes"});
+}
+
 void check_steady(const Case& c, Issues& issues) {
+  check_constant(c, issues);
   if (c.loading.k0_stress)
     issues.push_back(
         {"loading.k0_stress", "is for water under a level: the soil comes to rest from no stress"});
   const bool drains = std::ranges::any_of(c.water.faces, [](const HydraulicFaceCase& f) {
     return f.kind == FaceKind::head || f.kind == FaceKind::seepage;
   });
-  if (!drains)
+  if (!drains && c.water.drains.empty())
     issues.push_back(
         {"water", "needs a [[water.face]] of kind \"head\" or \"seepage\": without one no head is given"});
 }
 
 void check_coupled(const Case& c, Issues& issues) {
+  check_constant(c, issues);
   const std::string mode = fmt::format("water.mode = \"{}\"", name(c.water.mode));
   if (c.loading.damping > 0 || c.loading.adaptive_damping)
     issues.push_back({"loading.damping", fmt::format("is not used with {}: the soil is at rest", mode)});
@@ -47,7 +80,7 @@ void check_coupled(const Case& c, Issues& issues) {
     issues.push_back({"stop.unbalanced_force_ratio",
                       fmt::format("is not used with {}: the soil is at rest all the while", mode)});
   for (std::size_t i = 0; i < c.water.faces.size(); ++i)
-    if (c.water.faces[i].kind == FaceKind::seepage)
+    if (c.water.faces[i].kind == FaceKind::seepage || c.water.faces[i].kind == FaceKind::rain)
       issues.push_back({fmt::format("water.face[{}].kind", i),
                         fmt::format("must be \"head\", \"closed\" or \"flux\" with {}", mode)});
   double top = -never;
@@ -70,7 +103,20 @@ std::vector<CaseIssue> check_flow_settings(const Case& c) {
       issues.push_back({fmt::format("soil[{}].permeability", i), "is missing: water flows in this soil"});
   if (c.formulation.motion != Motion::consistent)
     issues.push_back({"formulation.motion", "must be \"consistent\" where water flows"});
-  c.water.mode == WaterMode::steady ? check_steady(c, issues) : check_coupled(c, issues);
+  switch (c.water.mode) {
+    case WaterMode::still:
+      break;
+    case WaterMode::steady:
+      check_steady(c, issues);
+      break;
+    case WaterMode::coupled:
+    case WaterMode::undrained:
+      check_coupled(c, issues);
+      break;
+    case WaterMode::transient:
+      check_transient(c, issues);
+      break;
+  }
   return issues;
 }
 

@@ -91,6 +91,9 @@ std::vector<CaseIssue> check_footings(const Case& c) {
     if (c.water.couples() && settles)
       issues.push_back({key + ".settlement",
                         fmt::format("with water.mode = \"{}\" a footing needs 'force'", name(c.water.mode))});
+    if (c.water.flows_over_time())
+      issues.push_back(
+          {key, fmt::format("a footing does not go with water.mode = \"{}\"", name(c.water.mode))});
   }
   return issues;
 }

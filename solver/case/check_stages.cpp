@@ -25,7 +25,7 @@ Issues check_settings_of_stages(const Case& c) {
       if (const std::string fault = outline_fault(c.stages[i].excavate_within[k]); !fault.empty())
         issues.push_back({key(i, fmt::format("excavate_within[{}]", k)), fault});
   }
-  if (c.water.couples())
+  if (c.water.flows_over_time())
     issues.push_back({"stage[0]", fmt::format("water.mode = \"{}\" does not go with stages: it must be "
                                               "\"still\" or \"steady\"",
                                               name(c.water.mode))});
@@ -43,6 +43,7 @@ Issues check_together(const Case& scene) {
   all.stages.clear(), all.boundaries.clear(), all.loads.clear();
   all.water.stretches.clear(), all.water.level_over_time.clear(), all.water.faces.clear();
   all.water.mode = WaterMode::still;
+  all.water.drains.clear(), all.sections.clear();
   all.loading.gravity_applied = false;
   all.time.end = latest_end(scene);
   return check_geometry(all);

@@ -58,10 +58,9 @@ void declare(Fields& f, Case& c) {
       c.start_from);
   f.table(Key("particles", "", "How particles fill the soils."), c.particles);
   f.tables(Key("soil", "", "A soil: where it is and what it is.").required(), c.soils);
-  f.table(
-      Key("water", "",
-          "Water in the pores: at rest below its level, or in steady flow. Without this table all is dry."),
-      c.water, c.water.present() || c.water.flows());
+  f.table(Key("water", "",
+              "Water in the pores: at rest below its level, or flowing. Without this table all is dry."),
+          c.water, c.water.present() || c.water.flows());
   f.tables(
       Key("boundary", "",
           "A straight segment on the outline of the soils, at any angle. It may extend beyond the "
@@ -91,6 +90,10 @@ void declare(Fields& f, Case& c) {
   f.table(Key("check", "", "What the result is held against by itself."), c.check);
   f.table(Key("output", "", "What is written, and when."), c.output);
   f.tables(Key("probe", "", "A point of the soil whose history is recorded."), c.probes);
+  f.tables(Key("section", "", "A line through the soil that the water which flows through it is counted at.")
+               .only_if(c.water.mode == WaterMode::steady || c.water.mode == WaterMode::transient,
+                        "water.mode = \"steady\" or \"transient\""),
+           c.sections);
   f.tables(
       Key("stage", "",
           "What changes next, once the run has come to rest or to its end as the tables above say: stages "

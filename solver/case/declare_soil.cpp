@@ -11,7 +11,7 @@ using Names = std::string_view;
 constexpr std::array<Names, 5> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca",
                                     "modified_cam_clay"};
 constexpr std::array<Names, 3> softenings{"none", "exponential", "linear"};
-constexpr std::array<Names, 3> retention_models{"saturated", "gardner", "van_genuchten"};
+constexpr std::array<Names, 4> retention_models{"saturated", "gardner", "van_genuchten", "table"};
 constexpr double steepest = 80;  // degrees
 
 /// A key that its soil must have; in the documents as well, where no soil is given.
@@ -199,12 +199,11 @@ void declare(Fields& f, SoilCase& c) {
                .only_if(c.permeability.x() > 0, "permeability")
                .otherwise("as permeability"),
            c.permeability.y(), above(0, most_permeable));
-  f.number(Key("porosity", "", "Part of the soil that is water, whose volume gives way with it.")
+  f.number(Key("porosity", "",
+               "Part of the soil that is pores: what water fills, and what gives way with its volume.")
                .only_if(c.permeability.x() > 0, "permeability")
                .otherwise("0.4"),
            c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
-  f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
-          c.retention.model != RetentionModel::saturated);
   f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
   f.number(Key("angular_velocity", "rad/s",
                "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
@@ -213,6 +212,8 @@ void declare(Fields& f, SoilCase& c) {
                "Vibration at the start: upwards at the right end of a plate that is clamped at its left end, "
                "elsewhere in the shape of the first bending mode. For an upright rectangle."),
            c.bending_velocity, between(-1e6, 1e6));
+  f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
+          c.retention.model != RetentionModel::saturated);
 }
 
 void declare(Fields& f, RetentionCase& c) {
@@ -220,15 +221,39 @@ void declare(Fields& f, RetentionCase& c) {
       Key("model", "",
           "`gardner`: kr = S_e = exp(alpha psi); `van_genuchten`: his S_e with Mualem's kr; `saturated`: "
           "kr falls from 1 at the water table to 0.001 within one spacing above it, and suction does not "
-          "act on the soil."),
+          "act on the soil; `table`: S_e and kr at values of suction."),
       c.model, retention_models);
-  const bool curved = c.model != RetentionModel::saturated;
+  const bool genuchten = c.model == RetentionModel::van_genuchten, table = c.model == RetentionModel::table;
+  const bool curved = c.model == RetentionModel::gardner || genuchten;
   f.number(Key("alpha", "1/m", "Of suction: the larger, the coarser the soil.")
                .only_if(curved, "model = \"gardner\" or \"van_genuchten\""),
            c.alpha, above(0, 1e4));
-  const bool genuchten = c.model == RetentionModel::van_genuchten;
   f.number(Key("n", "", "Van Genuchten's n.").only_if(genuchten, "model = \"van_genuchten\""), c.n,
            above(1, 20));
+  f.pairs(Key("saturation", "m, -",
+              "Points of the curve: suction and S_e, from [0, 1] on, linear between and constant beyond.")
+              .only_if(table, "model = \"table\"")
+              .otherwise("none"),
+          c.saturation);
+  f.pairs(Key("permeability", "m, -", "The same of kr, whose logarithm is linear between the points.")
+              .only_if(table, "model = \"table\"")
+              .otherwise("none"),
+          c.permeability);
+  f.number(
+      Key("residual", "", "Water that never leaves, over the volume of the soil: less than its porosity."),
+      c.residual, {.min = 0, .max = 1, .max_included = false});
+  for (const auto& [name, points] :
+       {std::pair("saturation", &c.saturation), {"permeability", &c.permeability}}) {
+    if (!table) continue;
+    if (points->empty()) {
+      f.reject(name, "is missing: the model needs it");
+      continue;
+    }
+    if (points->front() != Point(0, 1)) f.reject(name, "must begin with [0, 1]");
+    for (std::size_t i = 1; i < points->size(); ++i)
+      if (!((*points)[i].y() > 0 && (*points)[i].y() <= (*points)[i - 1].y()))
+        f.reject(name, "must fall from point to point, and stay above 0");
+  }
   if (curved && !(c.alpha > 0)) f.reject("alpha", "is missing: the model needs it");
   if (genuchten && !(c.n > 1)) f.reject("n", "is missing: the model needs it");
 }

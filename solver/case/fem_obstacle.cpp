@@ -25,7 +25,12 @@ std::string fem_obstacle(const Case& scene) {
   if (!scene.loading.gravity_applied && scene.loads.empty())
     return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";
-  if (!scene.water.level_over_time.empty() || scene.water.couples()) return "the water moves";
+  if (!scene.water.level_over_time.empty() || scene.water.flows_over_time()) return "the water moves";
+  if (!scene.water.drains.empty()) return "there are drains in the soil";
+  const auto rains = [](const HydraulicFaceCase& f) { return f.kind == FaceKind::rain; };
+  if (std::ranges::any_of(scene.water.faces, rains)) return "rain runs off";
+  const auto tabulated = [](const SoilCase& s) { return s.retention.model == RetentionModel::table; };
+  if (std::ranges::any_of(scene.soils, tabulated)) return "a soil's retention is a table";
   return "";
 }
 

@@ -57,6 +57,8 @@ void declare(Fields&, SoilCase&);
 void declare(Fields&, WaterCase&);
 void declare(Fields&, RetentionCase&);
 void declare(Fields&, HydraulicFaceCase&);
+void declare(Fields&, DrainCase&);
+void declare(Fields&, FlowSectionCase&);
 void declare(Fields&, WaterStretch&);
 void declare(Fields&, BoundaryCase&);
 void declare(Fields&, LoadCase&);

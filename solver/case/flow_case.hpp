@@ -4,21 +4,24 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace porosph {
 
 /// What the pore water does.
 enum class WaterMode {
-  still,     ///< it stands under its level: hydrostatic
-  steady,    ///< steady seepage between the faces; the soil then carries that flow
-  coupled,   ///< saturated soil gives its water away over time: consolidation
-  undrained  ///< saturated soil keeps its water
+  still,      ///< it stands under its level: hydrostatic
+  steady,     ///< steady seepage between the faces; the soil then carries that flow
+  coupled,    ///< saturated soil gives its water away over time: consolidation
+  undrained,  ///< saturated soil keeps its water
+  transient   ///< seepage over time in soil that is saturated in part; the soil follows at rest
 };
 
 /// As in the case file.
 constexpr std::string_view name(WaterMode mode) {
-  constexpr std::string_view names[] = {"still", "steady", "coupled", "undrained"};
+  constexpr std::string_view names[] = {"still", "steady", "coupled", "undrained", "transient"};
   return names[static_cast<int>(mode)];
 }
 
@@ -27,6 +30,7 @@ enum class RetentionModel {
   saturated,      ///< full below the water table; within one spacing above it kr falls to 0.001
   gardner,        ///< kr = Se = exp(alpha psi)
   van_genuchten,  ///< van Genuchten 1980 with Mualem's kr, m = 1 - 1/n
+  table,          ///< Se and kr over suction, linear between
 };
 
 /// How flow and soil are computed together.
@@ -41,8 +45,18 @@ struct CouplingCase {
 
 struct RetentionCase {
   RetentionModel model = RetentionModel::saturated;
-  double alpha = 0;  ///< [1/m]
-  double n = 0;      ///< of van Genuchten [-]
+  double alpha = 0;     ///< [1/m]
+  double n = 0;         ///< of van Genuchten [-]
+  double residual = 0;  ///< water that stays, over the soil's volume [-]
+  std::vector<Eigen::Vector2d> saturation = {}, permeability = {};  ///< (suction, Se), (suction, kr) [m, -]
+};
+
+/// How seepage over time begins and what the soil does in it.
+struct TransientCase {
+  static constexpr double unset = std::numeric_limits<double>::infinity();
+  double start_level = unset;          ///< of water at rest, y [m]; unset: steady flow at t = 0
+  double start_pressure_head = unset;  ///< psi at the start, or the least of it above start_level [m]
+  bool rigid = false;                  ///< the soil does not move
 };
 
 /// What holds at a stretch of the outline.
@@ -51,6 +65,7 @@ enum class FaceKind {
   closed,   ///< nothing passes
   seepage,  ///< water leaves where its pressure reaches that of the air, and none enters
   flux,     ///< so much passes
+  rain,     ///< rain or evaporation, as much as the soil takes or gives
 };
 
 struct HydraulicFaceCase {
@@ -58,10 +73,35 @@ struct HydraulicFaceCase {
   FaceKind kind = FaceKind::closed;
   Eigen::Vector2d from = Eigen::Vector2d::Constant(unset);  ///< straight stretch of the outline [m]
   Eigen::Vector2d to = Eigen::Vector2d::Constant(unset);
-  double level = unset;  ///< of kind head: y of the water beside it [m]
-  double rate = 0;       ///< of kind flux: into the soil, per area [m/s]
+  double level = unset;   ///< of kind head: y of the water beside it [m]
+  double rate = 0;        ///< into the soil: of kind flux per area, of kind rain per area of its plan [m/s]
+  std::string name = {};  ///< in the history; may be empty
+  std::vector<Eigen::Vector2d> level_over_time = {};  ///< (time, level), in place of level [s, m]
+  std::vector<Eigen::Vector2d> rate_over_time = {};   ///< (time, rate), in place of rate [s, m/s]
+  double ponding = 0;                                 ///< psi at which rain runs off [m]
+  double driest = -1000;                              ///< psi at which evaporation falls [m]
 
+  bool changes() const { return !level_over_time.empty() || !rate_over_time.empty(); }
   bool everywhere() const { return from.x() == unset; }  ///< the whole outline
+};
+
+/// A flow at one instant, which holds all the time.
+struct GivenFlow {
+  std::vector<double> head;  ///< of the particles, relative to the model's origin [m]
+  double time = 0;           ///< at which faces are as they are then [s]
+};
+
+/// A drain or well in the soil: a straight line, or a point.
+struct DrainCase {
+  std::string name;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  ///< ends [m]
+  double level = HydraulicFaceCase::unset;  ///< of the water in it; unset: open to the air [m]
+};
+
+/// A line that what flows through is told of.
+struct FlowSectionCase {
+  std::string name;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  ///< ends [m]
 };
 
 }  // namespace porosph

@@ -34,6 +34,11 @@ Case moved(Case scene, const Point& by) {
   for (WaterStretch& s : scene.water.stretches) s.x_from += by.x(), s.x_to += by.x(), s.level += by.y();
   for (Point& p : scene.water.level_over_time) p.y() += by.y();
   for (HydraulicFaceCase& face : scene.water.faces) face.from += by, face.to += by, face.level += by.y();
+  for (HydraulicFaceCase& face : scene.water.faces)
+    for (Point& p : face.level_over_time) p.y() += by.y();
+  scene.water.transient.start_level += by.y();  // infinite where none is given
+  for (DrainCase& drain : scene.water.drains) drain.from += by, drain.to += by, drain.level += by.y();
+  for (FlowSectionCase& section : scene.sections) section.from += by, section.to += by;
   for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
   for (LoadCase& load : scene.loads) load.from += by, load.to += by;
   for (FootingCase& footing : scene.footings) footing.from += by, footing.to += by;

@@ -69,6 +69,7 @@ const std::vector<Field>& field_table() {
                               saturation,
                               darcy_velocity,
                               hydraulic_gradient,
+                              gradient_ratio,
                               pore_pressure_ratio};
     add_history(all, Laws{});
     return all;

@@ -69,6 +69,9 @@ inline constexpr Field darcy_velocity{"DarcyVelocity",  "m/s",           "w",
 inline constexpr Field hydraulic_gradient{
     "HydraulicGradient", "-", "i", "hydraulic gradient", "-grad h, the way that water is driven",
     FieldKind::vector};
+inline constexpr Field gradient_ratio{"GradientRatio", "-", "i_y / i_c", "gradient ratio",
+                                      "upward hydraulic gradient over the critical one, i_c = (gamma_sat - "
+                                      "gamma_w) / gamma_w: soil floats at 1"};
 inline constexpr Field pore_pressure_ratio{"PorePressureRatio", "-", "r_u", "pore pressure ratio",
                                            "-p_w / -(sigma'_yy + p_w), 0 where nothing presses"};
 

@@ -16,6 +16,7 @@
 #include "solver/model/soil_law.hpp"
 #include "solver/water/steady_water.hpp"
 #include "solver/water/still_water.hpp"
+#include "solver/water/transient_water.hpp"
 
 namespace porosph {
 namespace {
@@ -94,6 +95,13 @@ std::vector<Wall> walls_of(const Case& scene, std::span<const Vec2> points) {
   });
 }
 
+std::shared_ptr<FlowingWater> flowing_water(const Case& scene, const Particles& particles) {
+  if (scene.water.mode == WaterMode::steady || scene.flow)
+    return std::make_shared<SteadyWater>(scene, particles);
+  if (scene.water.mode == WaterMode::transient) return std::make_shared<TransientWater>(scene, particles);
+  return nullptr;
+}
+
 }  // namespace
 
 Model build_model(const Case& case_as_drawn) {
@@ -119,8 +127,7 @@ Model build_model(const Case& case_as_drawn) {
     model.soils[i].add_history(model.particles);
     model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
   }
-  if (scene.water.mode == WaterMode::steady) {
-    const auto water = std::make_shared<SteadyWater>(scene, model.particles);
+  if (const auto water = flowing_water(scene, model.particles)) {
     water->wet(scene, model.particles);
     model.pore_water = water;
   }

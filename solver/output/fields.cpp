@@ -89,6 +89,15 @@ std::vector<double> flow_vectors(Simulation& s, Value value) {
                  [&](auto i) { return flow != nullptr ? Vec2(value(*flow)[i]) : Vec2(Vec2::Zero()); });
 }
 
+/// Of the flow upwards, over the one that carries the buoyant weight of the soil.
+double gradient_ratio(const Simulation& s, std::size_t i) {
+  const FlowRecord* flow = s.model().pore_water->record();
+  if (flow == nullptr) return 0;
+  const double weight = s.scene().soils[s.model().particles.soil[i]].unit_weight_saturated;
+  const double water = s.scene().water.unit_weight;
+  return flow->gradient[i].y() / ((weight - water) / water);
+}
+
 const Particles& particles(Simulation& s) { return s.model().particles; }
 
 const Soil& soil_of(Simulation& s, std::size_t i) { return s.model().soils[particles(s).soil[i]]; }
@@ -185,6 +194,10 @@ const std::vector<Reader>& readers() {
        [](Simulation& s) {
          return flow_vectors(
              s, [](const FlowRecord& f) -> const auto& { return f.gradient; });
+       }},
+      {particle_fields::gradient_ratio.name,
+       [](Simulation& s) {
+         return scalars<double>(particles(s), [&](auto i) { return gradient_ratio(s, i); });
        }},
       {particle_fields::pore_pressure_ratio.name,
        [](Simulation& s) {

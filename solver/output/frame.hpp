@@ -83,8 +83,17 @@ struct Summary {
     std::vector<double> through_faces;  ///< into the soil through each [[water.face]] of the case [m2/s]
     double imbalance = 0;               ///< what enters less what leaves, over what enters [-]
     int newton_steps = 0, krylov_iterations = 0;
+    std::map<std::string, double> sections = {};  ///< through each, from its left to its right [m2/s]
   };
   std::optional<Seepage> seepage;
+  /// What seepage over time took, and its balance of water.
+  struct TransientSeepage {
+    std::int64_t flow_steps = 0, refused_steps = 0, newton_steps = 0, krylov_iterations = 0, soil_sweeps = 0;
+    double entered = 0, left = 0;  ///< through faces and drains since the start [m2]
+    double gained = 0;             ///< by the soil [m2]
+    double imbalance = 0;          ///< gained less entered, plus left, over what moved [-]
+  };
+  std::optional<TransientSeepage> transient;
   /// What a coupled run took, and the water that the soil gave away.
   struct Consolidation {
     std::int64_t flow_steps = 0, pressure_solves = 0, krylov_iterations = 0, soil_sweeps = 0;

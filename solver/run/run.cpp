@@ -8,6 +8,7 @@
 
 #include "solver/run/energy_budget.hpp"
 #include "solver/run/monitor/zigzag.hpp"
+#include "solver/run/water_balance.hpp"
 
 namespace porosph {
 namespace {
@@ -19,7 +20,9 @@ constexpr std::int64_t steps_between_balances = 10, steps_between_energy_checks 
 /// crosses the body to and fro. Where damping is critical for the lowest vibration, 2 / omega will do.
 class Equilibrium {
  public:
-  explicit Equilibrium(const Simulation& s) : limit_(s.scene().stop.unbalanced_force_ratio) {
+  /// Soil that follows a flow is at rest all the while.
+  explicit Equilibrium(const Simulation& s)
+      : limit_(s.follows_flow() ? 0 : s.scene().stop.unbalanced_force_ratio) {
     Vec2 low = s.model().particles.start.front(), high = low;
     for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
@@ -60,6 +63,10 @@ std::vector<double> history_row(Simulation& s) {
   if (!s.footings().empty()) s.accelerations();
   std::vector<double> row = {s.time()};
   if (const Consolidation* c = s.consolidation()) row.push_back(c->drained());
+  if (s.seepage() != nullptr) {
+    const std::vector<double> of_water = water_balance_row(s);
+    row.insert(row.end(), of_water.begin(), of_water.end());
+  }
   for (const Probe& probe : s.probes()) {
     const std::vector<double> values = probe.read(s.model().particles).values();
     row.insert(row.end(), values.begin(), values.end());
@@ -136,6 +143,10 @@ bool Schedule::due(std::int64_t step) const {
 std::vector<std::string> history_columns(const Simulation& simulation) {
   std::vector<std::string> columns = {"time"};
   if (simulation.consolidation() != nullptr) columns.push_back("water.drained");
+  if (simulation.seepage() != nullptr) {
+    const std::vector<std::string> of_water = water_balance_columns(simulation);
+    columns.insert(columns.end(), of_water.begin(), of_water.end());
+  }
   for (const Probe& probe : simulation.probes())
     for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
   for (const Footing& footing : simulation.footings())
@@ -175,6 +186,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
   };
 
   if (!progress.has_begun()) {
+    s.begin();
     const Simulation::Energy energy = s.energy();
     progress.energy_at_start = energy.total();
     progress.most_at_work = energy.kinetic + energy.elastic;

@@ -102,6 +102,8 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   clock_.last_step = std::llround(std::ceil((scene.time.end - clock_.start) / clock_.dt * (1 - 1e-12)));
   for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
   if (scene.water.couples()) couple();
+  seepage_ = std::dynamic_pointer_cast<TransientWater>(model_.pore_water);
+  if (seepage_) time_by_flow();
   at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
   if (scene.stop.on_separation)
     at_start_.bodies = find_bodies(model_.particles.position, 2 * model_.smoothing_length).count;
@@ -131,12 +133,17 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
   old = std::move(changed);
 }
 
-/// Time is then that of the flow, whose steps end on ticks.
 void Simulation::couple() {
-  if (scene_.time.step > 0)
-    throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
   consolidation_ = std::make_unique<Consolidation>(moved(scene_, -model_.origin), model_, *dynamics_,
                                                    surface_loads_, footings_, clock_.dt);
+  time_by_flow();
+}
+
+/// Steps of the flow end on ticks.
+void Simulation::time_by_flow() {
+  if (scene_.time.step > 0)
+    throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
+  settling_.dt = clock_.dt;
   clock_.last_step = std::int64_t{1} << 40;
   clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
 }
@@ -176,6 +183,54 @@ void Simulation::take_accelerations_at_rest() {
   accelerations_valid_ = true;
 }
 
+/// Where something is written the soil follows.
+void Simulation::advance_seepage() {
+  if (clock_.step >= clock_.last_step) return;
+  const std::int64_t due = next_tick_due();
+  const double until = static_cast<double>(due) * clock_.dt;
+  try {
+    const double reached = seepage_->advance(time(), until);
+    clock_.step =
+        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
+  } catch (const std::runtime_error& failure) {
+    instability_ = Breakdown{.cause = Cause::not_at_rest, .time = time(), .message = failure.what()};
+    return;
+  }
+  if (clock_.step < due) return;
+  seepage_->tell();
+  settle();
+}
+
+void Simulation::begin() {
+  if (!seepage_ || instability_) return;
+  settle();
+  Particles& p = model_.particles;
+  p.uncounted.resize(p.size());
+  for (std::size_t a = 0; a < p.size(); ++a) p.uncounted[a] = p.position[a] - p.start[a];
+}
+
+void Simulation::settle() {
+  model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
+  if (scene_.water.transient.rigid) return;
+  const double given = scene_.stop.unbalanced_force_ratio;
+  const bool rests = settling_.settle(model_, *dynamics_,
+                                      {.forces =
+                                           [this] {
+                                             accelerations_valid_ = false;
+                                             return accelerations();
+                                           },
+                                       .ratio = [this] { return unbalanced_force_ratio(); },
+                                       .enough = given > 0 ? given : Settling::usually_enough});
+  accelerations_valid_ = false;
+  if (rests) return;
+  instability_ = Breakdown{
+      .cause = Cause::not_at_rest,
+      .time = time(),
+      .message = fmt::format("at {:.6g} s the soil does not come to rest in the flow: it fails (unbalanced "
+                             "force ratio {:.2g}, largest displacement {:.3g} m)",
+                             time(), unbalanced_force_ratio(), largest_displacement())};
+}
+
 void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
 
 double Simulation::damping() const {
@@ -190,6 +245,7 @@ std::span<const Vec2> Simulation::accelerations() {
     dynamics_->accelerations(accelerations_);
     add_loads(model_.loads, model_.particles, time(), accelerations_);
     add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
+    if (seepage_) seepage_->add_weight(model_.particles, model_.gravity, accelerations_);
     for (Footing& footing : footings_)
       footing.hold(model_.particles, next_kick(), clock_.dt, time_of(clock_.step + 1), accelerations_);
     accelerations_valid_ = true;
@@ -199,7 +255,7 @@ std::span<const Vec2> Simulation::accelerations() {
 
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
-  if (clock_.step == 0 || consolidation_) return v;
+  if (clock_.step == 0 || follows_flow()) return v;
   const auto a = accelerations();
   const Kick kick = half_kick(damping(), clock_.dt);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
@@ -209,6 +265,7 @@ std::vector<Vec2> Simulation::velocities() {
 void Simulation::advance() {
   if (instability_) return;
   if (consolidation_) return advance_flow();
+  if (seepage_) return advance_seepage();
   accelerations();
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? accelerations_ : std::vector<Vec2>();
@@ -248,7 +305,7 @@ void Simulation::visit(StateArchive& state) {
   bool prepared = accelerations_valid_;
   Dynamics::Counts &counts = dynamics_->counts, counts_then = counts;
   state.value("taken_over", taken_over_);
-  if (taken_over_) visit_taken_over(state, model_.particles);
+  if (taken_over_ || seepage_) visit_taken_over(state, model_.particles);
   state.value("step", clock_.step);
   state.value("prepared", prepared);
   state.value("searches", counts_then.searches);
@@ -262,6 +319,7 @@ void Simulation::visit(StateArchive& state) {
   dynamics_->visit(state);
   model_.pore_water->visit(state);
   if (consolidation_) consolidation_->visit(state);
+  if (seepage_) settling_.visit(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;

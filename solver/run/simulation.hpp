@@ -14,8 +14,10 @@
 #include "solver/run/monitor/instability.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
+#include "solver/run/settling.hpp"
 #include "solver/run/surface_loads.hpp"
 #include "solver/sph/dynamics.hpp"
+#include "solver/water/transient_water.hpp"
 
 namespace porosph {
 
@@ -40,8 +42,10 @@ class Simulation {
   /// or c_u, and tension. Whatever the soils remember stays. Not part of the state that visit() saves.
   void reduce_strength(double factor);
 
-  /// One leapfrog step, or one step of the flow where water and soil are coupled. Does nothing once the run
-  /// has become unstable.
+  /// Brings soil to rest that follows a flow over time, before the first step; does nothing elsewhere.
+  void begin();
+  /// One leapfrog step, or one step of the flow where that has its own steps. Does nothing once the run has
+  /// become unstable.
   void advance();
 
   std::int64_t step() const { return clock_.step; }
@@ -57,6 +61,10 @@ class Simulation {
   const std::vector<Footing>& footings() const { return footings_; }
   const Dynamics& dynamics() const { return *dynamics_; }
   const Consolidation* consolidation() const { return consolidation_.get(); }  ///< null unless coupled
+  const TransientWater* seepage() const { return seepage_.get(); }             ///< null unless transient
+  std::int64_t settling_sweeps() const { return settling_.sweeps; }            ///< of the soil in that flow
+  /// Whether time is that of a flow, whose steps are as long as it allows.
+  bool follows_flow() const { return consolidation_ || seepage_; }
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -99,7 +107,10 @@ class Simulation {
   Kick next_kick() const;
   void drift();
   void couple();
+  void time_by_flow();
   void advance_flow();
+  void advance_seepage();
+  void settle();
   void take_accelerations_at_rest();
   std::int64_t next_tick_due() const;
   void name_breakdown(double time);
@@ -126,6 +137,8 @@ class Simulation {
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
   std::unique_ptr<Consolidation> consolidation_;
+  std::shared_ptr<TransientWater> seepage_;
+  Settling settling_;
   std::vector<Probe> probes_;
   Clock clock_;
   std::vector<LoadedParticles> surface_loads_;

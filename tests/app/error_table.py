@@ -104,6 +104,7 @@ IN_THE_CASE = [
 WEIGHT = "unit_weight_saturated = 20e3\n"
 PERMEABLE = WEIGHT + "permeability = 1e-5\n"
 STEADY = '[water]\nmode = "steady"\n'
+TRANSIENT = '[water]\nmode = "transient"\n'
 CLOSED = '[[water.face]]\nkind = "closed"\n'
 ON_TOP = '[[water.face]]\nkind = "head"\nlevel = 3\nfrom = [0, 2]\nto = [4, 2]\n'
 IN_THE_FLOW = [
@@ -124,6 +125,23 @@ IN_THE_FLOW = [
      PERMEABLE + '[water]\nmode = "coupled"\nlevel = 3\n[loading]\ndamping = 0.1\n'),
     ("flow in one of the paper's forms", WEIGHT,
      PERMEABLE + STEADY + CLOSED + ON_TOP + '[formulation]\nmotion = "proposed"\n'),
+    ("rain on a face with a head", WEIGHT, PERMEABLE + STEADY + CLOSED + ON_TOP + "rate = 1e-6\n"),
+    ("a level over time in steady flow", WEIGHT,
+     PERMEABLE + STEADY + CLOSED + ON_TOP.replace("level = 3", "level_over_time = [[0, 3], [60, 4]]")),
+    ("a level and a level over time", WEIGHT,
+     PERMEABLE + TRANSIENT + ON_TOP + "level_over_time = [[0, 3], [60, 4]]\n"),
+    ("damping of soil that follows a flow", WEIGHT, PERMEABLE + TRANSIENT + ON_TOP + "[loading]\ndamping = 0.1\n"),
+    ("flow over time that nothing drives", WEIGHT, PERMEABLE + TRANSIENT + CLOSED),
+    ("a start of steady flow", WEIGHT, PERMEABLE + STEADY + "start_level = 1\n" + CLOSED + ON_TOP),
+    ("more water that stays than there are pores", WEIGHT,
+     PERMEABLE + "retention = { residual = 0.5 }\n" + TRANSIENT + ON_TOP),
+    ("a table of retention that rises", WEIGHT,
+     PERMEABLE + 'retention = { model = "table", saturation = [[0, 1], [1, 0.2], [2, 0.3]], '
+     'permeability = [[0, 1], [1, 0.01]] }\n' + TRANSIENT + ON_TOP),
+    ("a drain beside the soil", WEIGHT,
+     PERMEABLE + TRANSIENT + '[[water.drain]]\nname = "toe"\nfrom = [9, 1]\n' + ON_TOP),
+    ("a section where water stands", WEIGHT,
+     WEIGHT + '[water]\nlevel = 1\n[[section]]\nname = "A"\nfrom = [1, 0]\nto = [1, 2]\n'),
     ("a body that no head reaches", WEIGHT,
      PERMEABLE + CLAY.replace("4.2", "6").replace(WEIGHT, PERMEABLE) +
      '[[boundary]]\nkind = "fixed"\nfrom = [6, 0]\nto = [9, 0]\n' + STEADY + CLOSED + ON_TOP),

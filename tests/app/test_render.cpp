@@ -49,7 +49,8 @@ TEST_CASE("what cannot be drawn is refused") {
   REQUIRE(place.porosph("run small.toml --quiet --out run").status == 0);
   for (const auto& [options, message] : std::initializer_list<std::pair<const char*, const char*>>{
            {"--style contours", "--style = contours: must be particles, bands or isolines"},
-           {"--arrows PorePressure", "--arrows = PorePressure: must be Displacement or Velocity"},
+           {"--arrows PorePressure",
+            "--arrows = PorePressure: must be Displacement, Velocity, DarcyVelocity, HydraulicGradient"},
            {"--out a.jpg", "--out = a.jpg: the name must end in .png, .svg or .pdf"},
            {"--out a.webp", "--out = a.webp: a film needs --time all"},
            {"--time all --out a.webp --rate 0", "--rate = 0: must be from 0.1 to 60"}}) {

@@ -221,7 +221,8 @@ TEST_CASE("history draws stress, settlement, stress paths and Mohr's circle at p
   CHECK(place.porosph("history consistent --show st --probe A --out paths/a.svg").status == 0);
   CHECK_THAT(text_of(place.folder() / "paths/a.svg"), Contains("<svg"));
   CHECK_THAT(place.porosph("history consistent --probe B").err, Contains("--probe = B: consistent has A"));
-  CHECK_THAT(place.porosph("history consistent --show pg").err, Contains("must be stress, settlement, pq"));
+  CHECK_THAT(place.porosph("history consistent --show pg").err,
+             Contains("must be stress, settlement, water, pq"));
 }
 
 TEST_CASE("a report has contents, and may be a single file with a summary beside it") {

@@ -135,6 +135,7 @@ Json to_json(const Summary& summary) {
     put(seepage, "imbalance", summary.seepage->imbalance);
     seepage["newton_steps"] = summary.seepage->newton_steps;
     seepage["krylov_iterations"] = summary.seepage->krylov_iterations;
+    for (const auto& [name, discharge] : summary.seepage->sections) put(seepage["sections"], name, discharge);
   }
   if (summary.consolidation) {
     const auto& c = *summary.consolidation;
@@ -142,6 +143,15 @@ Json to_json(const Summary& summary) {
     object["flow_steps"] = c.flow_steps, object["pressure_solves"] = c.pressure_solves;
     object["krylov_iterations"] = c.krylov_iterations, object["soil_sweeps"] = c.soil_sweeps;
     put(object, "drained", c.drained), put(object, "imbalance", c.imbalance);
+  }
+  if (summary.transient) {
+    const auto& c = *summary.transient;
+    Json& object = json["transient_seepage"];
+    object["flow_steps"] = c.flow_steps, object["refused_steps"] = c.refused_steps;
+    object["newton_steps"] = c.newton_steps, object["krylov_iterations"] = c.krylov_iterations;
+    object["soil_sweeps"] = c.soil_sweeps;
+    put(object, "entered", c.entered), put(object, "left", c.left), put(object, "gained", c.gained);
+    put(object, "imbalance", c.imbalance);
   }
   json["probes"] = object_of(summary.probes);
   for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
@@ -363,6 +373,17 @@ Summary summary_from(const Object& json) {
     const auto seepage = json.object("seepage");
     summary.seepage = {seepage.numbers("through_faces"), seepage.number("imbalance"),
                        seepage.integer<int>("newton_steps"), seepage.integer<int>("krylov_iterations")};
+    if (seepage.has("sections")) {
+      const auto sections = seepage.object("sections");
+      for (const auto& name : sections.keys()) summary.seepage->sections[name] = sections.number(name);
+    }
+  }
+  if (json.has("transient_seepage")) {
+    const auto c = json.object("transient_seepage");
+    const auto count = [&](const char* key) { return c.integer<std::int64_t>(key); };
+    summary.transient = {count("flow_steps"),        count("refused_steps"), count("newton_steps"),
+                         count("krylov_iterations"), count("soil_sweeps"),   c.number("entered"),
+                         c.number("left"),           c.number("gained"),     c.number("imbalance")};
   }
   if (json.has("consolidation")) {
     const auto c = json.object("consolidation");

@@ -14,6 +14,14 @@ DarcyFlow::DarcyFlow(FlowPairs pairs, const HydraulicOutline& outline, std::vect
       fed_by_patch_(pairs_.beside_patch) {
   for (const HydraulicPatch& patch : outline.patches) patch_length_.push_back(patch.to - patch.from);
   make_pattern();
+  find_holders();
+}
+
+/// Patches beside a particle that lies on the outline are held with it.
+void DarcyFlow::find_holders() {
+  std::vector<std::uint8_t> on_face(particles(), 0);
+  for (const std::int32_t a : pairs_.on_face) on_face[a] = 1;
+  for (const std::int32_t a : fed_by_patch_) holder_.push_back(a >= 0 && on_face[a] ? a : -1);
 }
 
 void DarcyFlow::make_pattern() {
@@ -45,6 +53,8 @@ DarcyFlow::Image DarcyFlow::image(const FacePair& pair, const FaceConditions& fa
     const auto head = faces.head(pair.patch[i], pair.crossing[i], pair.foot[i]);
     if (!head) continue;
     image = {-image.sign, 2 * *head - image.constant, true, pair.patch[i]};
+    if (faces.is_dry(pair.patch[i]))
+      image.dry_kr = retention(pair.from).permeability(faces.limit(pair.patch[i], PatchState::dry)).kr;
   }
   return image;
 }
@@ -71,10 +81,11 @@ void DarcyFlow::assemble(std::span<const double> head, const FaceConditions& fac
   for (std::size_t a = 0; a < particles(); ++a) {
     double flow = 0, diagonal = 0;
     const auto within = [&](std::int32_t b, double conductance, std::int32_t slot) {
-      const double t = conductance * (kr[a].kr + kr[b].kr) / 2, fall = head[b] - head[a];
+      const double fall = head[b] - head[a], of_a = share_of_first(fall), of_b = 1 - of_a;
+      const double t = conductance * (of_a * kr[a].kr + of_b * kr[b].kr);
       flow += t * fall;
-      diagonal += t - conductance * kr[a].slope / 2 * fall;
-      slope.value[slot] -= t + conductance * kr[b].slope / 2 * fall;
+      diagonal += t - conductance * of_a * kr[a].slope * fall;
+      slope.value[slot] -= t + conductance * of_b * kr[b].slope * fall;
     };
     for (auto k = pairs_.begin[a]; k < pairs_.begin[a + 1]; ++k)
       within(pairs_.pairs[k].to, pairs_.pairs[k].conductance, slot_[k]);
@@ -86,9 +97,11 @@ void DarcyFlow::assemble(std::span<const double> head, const FaceConditions& fac
         if (slot >= 0) within(pair.to, pair.conductance, slot);
         continue;
       }
-      flow += pair.conductance * (to.sign * head[pair.to] + to.constant - head[a]);
-      diagonal += pair.conductance;
-      (slot >= 0 ? slope.value[slot] : diagonal) -= pair.conductance * to.sign;
+      const double t = pair.conductance * through_kr(to, kr[a].kr);
+      const double fall = to.sign * head[pair.to] + to.constant - head[a];
+      flow += t * fall;
+      diagonal += t - (to.dry_kr < 0 ? 0 : pair.conductance * kr[a].slope / 2 * fall);
+      (slot >= 0 ? slope.value[slot] : diagonal) -= t * to.sign;
     }
     inflow[a] = flow, slope.diagonal[a] = diagonal;
   }
@@ -118,7 +131,8 @@ template <class Use>
 void DarcyFlow::for_flows(std::size_t a, std::span<const double> head, std::span<const double> kr,
                           const FaceConditions& faces, Use&& use) const {
   const auto within = [&](std::int32_t b, double conductance) {
-    return conductance * (kr[a] + kr[b]) / 2 * (head[b] - head[a]);
+    const double fall = head[b] - head[a], of_a = share_of_first(fall);
+    return conductance * (of_a * kr[a] + (1 - of_a) * kr[b]) * fall;
   };
   for (auto k = pairs_.begin[a]; k < pairs_.begin[a + 1]; ++k)
     use(within(pairs_.pairs[k].to, pairs_.pairs[k].conductance), pairs_.pairs[k].to, nullptr, -1);
@@ -126,7 +140,8 @@ void DarcyFlow::for_flows(std::size_t a, std::span<const double> head, std::span
     const FacePair& pair = pairs_.face_pairs[k];
     const Image to = image(pair, faces);
     if (to.fixed)
-      use(pair.conductance * (to.sign * head[pair.to] + to.constant - head[a]), pair.to, &pair.x, to.patch);
+      use(pair.conductance * through_kr(to, kr[a]) * (to.sign * head[pair.to] + to.constant - head[a]),
+          pair.to, &pair.x, to.patch);
     else
       use(within(pair.to, pair.conductance), pair.to, &pair.x, -1);
   }
@@ -146,9 +161,13 @@ std::vector<double> DarcyFlow::through_patches(std::span<const double> head,
       });
     }
   }
-  for (std::size_t patch = 0; patch < through.size(); ++patch)
-    if (fed_by_patch_[patch] >= 0)
-      through[patch] += faces.rate(static_cast<std::int32_t>(patch)) * patch_length_[patch];
+  for (std::size_t patch = 0; patch < through.size(); ++patch) {
+    const std::int32_t fed = fed_by_patch_[patch];
+    if (fed < 0) continue;
+    const double supplied = faces.rate(static_cast<std::int32_t>(patch)) * patch_length_[patch];
+    through[patch] += supplied;
+    if (pinned_by[fed] >= 0) through[pinned_by[fed]] -= supplied;  // what holds its head takes it
+  }
   return through;
 }
 
@@ -166,7 +185,8 @@ std::vector<std::int32_t> DarcyFlow::pinning_patches(const FaceConditions& faces
 double DarcyFlow::drawn_from(std::size_t a, std::span<const double> head, std::span<const double> kr) const {
   double flow = 0;
   const auto add = [&](std::int32_t b, double conductance) {
-    flow += conductance * (kr[a] + kr[b]) / 2 * (head[b] - head[a]);
+    const double fall = head[b] - head[a], of_a = share_of_first(fall);
+    flow += conductance * (of_a * kr[a] + (1 - of_a) * kr[b]) * fall;
   };
   for (auto k = pairs_.begin[a]; k < pairs_.begin[a + 1]; ++k)
     add(pairs_.pairs[k].to, pairs_.pairs[k].conductance);
@@ -189,6 +209,28 @@ std::vector<double> DarcyFlow::pressure_heads_at_patches(std::span<const double>
   for (std::size_t patch = 0; patch < sum.size(); ++patch)
     sum[patch] = weight[patch] > 0 ? sum[patch] / weight[patch] : -never;
   return sum;
+}
+
+double DarcyFlow::between(std::int32_t a, std::int32_t b, double c, std::span<const double> head) const {
+  const double fall = head[b] - head[a], of_a = share_of_first(fall);
+  const double kr_a = retention(a).permeability(head[a] - height_[a]).kr;
+  const double kr_b = retention(b).permeability(head[b] - height_[b]).kr;
+  return c * (of_a * kr_a + (1 - of_a) * kr_b) * fall;
+}
+
+std::vector<double> DarcyFlow::through_patches_if(std::span<const double> head, const FaceConditions& faces,
+                                                  PatchState state) const {
+  std::vector<double> through(faces.size(), 0);
+  for (const FacePair& p : pairs_.face_pairs) {
+    if (p.images > 1 || !faces.switches(p.patch[0])) continue;
+    const double psi = faces.limit(p.patch[0], state);
+    Image to{-1, 2 * (p.foot[0] + psi), true, p.patch[0]};
+    const Retention& soil = retention(p.from);
+    if (state == PatchState::dry) to.dry_kr = soil.permeability(psi).kr;
+    const double kr = soil.permeability(head[p.from] - height_[p.from]).kr;
+    through[p.patch[0]] += p.conductance * through_kr(to, kr) * (to.constant - head[p.to] - head[p.from]);
+  }
+  return through;
 }
 
 std::vector<Vec2> DarcyFlow::velocities(std::span<const double> head, const FaceConditions& faces,

@@ -15,7 +15,9 @@ namespace porosph {
 ///
 ///   R_a = sum_b c_ab (kr_a + kr_b)/2 (h_b - h_a) + sum_faces c_ab (2 h_face - h_b - h_a) + rates,
 ///
-/// where psi = h - y gives kr of each. A sum over all particles leaves what passes the faces alone.
+/// where psi = h - y gives kr of each; kr of the one that water comes from takes the place of the mean where
+/// that is asked for. Faces are wet, but those that have dried up have the mean of their kr and the soil's. A
+/// sum over all particles leaves what passes the faces alone.
 class DarcyFlow {
  public:
   /// `soil` of each particle; `height`: their y [m].
@@ -38,6 +40,12 @@ class DarcyFlow {
 
   /// The patch whose head a particle on the outline has; -1 for all others.
   std::vector<std::int32_t> pinning_patches(const FaceConditions& faces) const;
+  enum class Mean {
+    arithmetic,  ///< of second order
+    upstream     ///< of first order, never out of bounds
+  };
+  void set_mean(Mean mean) { mean_ = mean; }
+
   /// Puts particles that lie on a face with a head at that head.
   void pin(std::span<double> head, const FaceConditions& faces) const;
 
@@ -45,6 +53,18 @@ class DarcyFlow {
   std::vector<double> through_patches(std::span<const double> head, const FaceConditions& faces) const;
   /// Pressure head at each patch, as if nothing passed it [m]; -infinity where no particle is near.
   std::vector<double> pressure_heads_at_patches(std::span<const double> head) const;
+  /// What would enter through each patch if it were held at its limit of a state [m2/s]; particles that lie
+  /// on it left out.
+  std::vector<double> through_patches_if(std::span<const double> head, const FaceConditions& faces,
+                                         PatchState state) const;
+  /// The particle on the outline that stands for a patch, or -1.
+  std::int32_t holder(std::int32_t patch) const { return holder_[patch]; }
+  std::int32_t fed_by(std::int32_t patch) const { return fed_by_patch_[patch]; }  ///< takes its rate, or -1
+  double patch_length(std::int32_t patch) const { return patch_length_[patch]; }  ///< [m]
+  /// Whether the face that a pair passes has a head now, so that it is no pair of two particles.
+  bool has_head(const FacePair& pair, const FaceConditions& faces) const { return image(pair, faces).fixed; }
+  /// From particle b to a [m2/s], of conductance c.
+  double between(std::int32_t a, std::int32_t b, double c, std::span<const double> head) const;
 
   /// Darcy velocity w = -K kr grad h of the particles, from what passes between pairs [m/s]; with `saturated`
   /// as if kr were 1.
@@ -59,8 +79,15 @@ class DarcyFlow {
     double sign, constant;  ///< h of the image = sign * h of the particle + constant
     bool fixed;             ///< a head is given at the face
     std::int32_t patch;     ///< that has it
+    double dry_kr = -1;     ///< kr of a face that has dried up, or negative
   };
   Image image(const FacePair& pair, const FaceConditions& faces) const;
+  void find_holders();
+  /// Share of a in kr of the pair that water flows through, for h_b - h_a.
+  double share_of_first(double fall) const { return mean_ == Mean::arithmetic ? 0.5 : fall < 0 ? 1 : 0; }
+  double through_kr(const Image& image, double kr) const {
+    return image.dry_kr < 0 ? 1 : (kr + image.dry_kr) / 2;
+  }
   void make_pattern();
   template <class Use>
   void for_flows(std::size_t a, std::span<const double> head, std::span<const double> kr,
@@ -74,6 +101,8 @@ class DarcyFlow {
   std::vector<double> height_;
   std::vector<double> patch_length_;
   std::vector<std::int32_t> fed_by_patch_;  ///< particle that takes a patch's rate, or -1
+  std::vector<std::int32_t> holder_;
+  Mean mean_ = Mean::arithmetic;
   SparseRows pattern_;
   std::vector<std::int32_t> slot_, face_slot_;  ///< of each pair in the pattern; -1: the diagonal
 };

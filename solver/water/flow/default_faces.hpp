@@ -12,4 +12,8 @@ namespace porosph {
 /// of the water that stands.
 std::vector<HydraulicFaceCase> faces_of_excess(const Case&);
 
+/// Faces of seepage: those of the case, which come last and hold where they overlap. Before them, over time:
+/// nothing passes where a boundary holds the soil, and water may leave through free stretches of the outline.
+std::vector<HydraulicFaceCase> faces_of_seepage(const Case&);
+
 }  // namespace porosph

@@ -11,9 +11,10 @@ namespace porosph {
 
 /// A short piece of a stretch of the outline.
 struct HydraulicPatch {
-  int stretch;      ///< index into HydraulicOutline::stretches
-  double from, to;  ///< distance along it [m]
-  int face;         ///< index into the case's faces; -1 where none is named
+  int stretch;                ///< index into HydraulicOutline::stretches
+  double from, to;            ///< distance along it [m]
+  int face;                   ///< index into the case's faces; -1 where none is named
+  Vec2 place = Vec2::Zero();  ///< of one in the soil (a drain), whose stretch is -1 [m]
 };
 
 struct HydraulicOutline {
@@ -25,7 +26,9 @@ struct HydraulicOutline {
     const Wall& w = stretches[stretch];
     return w.from + along * (w.to - w.from).normalized();
   }
-  Vec2 middle(const HydraulicPatch& p) const { return at(p.stretch, (p.from + p.to) / 2); }
+  Vec2 middle(const HydraulicPatch& p) const {
+    return p.stretch < 0 ? p.place : at(p.stretch, (p.from + p.to) / 2);
+  }
   /// The patch at a distance along a stretch; beyond an end, that which lies as far before it.
   int patch_at(int stretch, double along) const;
 };

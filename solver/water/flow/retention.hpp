@@ -20,7 +20,19 @@ class Retention {
     double slope;  ///< dkr/dpsi [1/m]
   };
   Permeability permeability(double psi) const;
+  /// Whether Se is a smooth curve that has no end.
+  bool is_curved() const {
+    return soil_.model == RetentionModel::gardner || soil_.model == RetentionModel::van_genuchten;
+  }
   double saturation(double psi) const;  ///< Se [-]
+  struct Stored {
+    double saturation;  ///< [-]
+    double slope;       ///< dSe/dpsi [1/m]
+  };
+  /// Se as the water's balance counts it: soil without a retention curve drains within one spacing.
+  Stored stored(double psi) const;
+  /// The psi < 0 at which that is `saturation`, above 0 and below 1; the curve's end where it ends above [m].
+  double pressure_head(double saturation) const;
   /// chi psi with Bishop's chi = Se: the pressure head as the soil's stress feels it; no suction without a
   /// retention curve [m].
   double effective(double psi) const { return psi >= 0 ? psi : saturation(psi) * psi; }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solver/space/parallel.hpp"
+#include "solver/water/flow/face_switch.hpp"
 
 namespace porosph {
 namespace {
@@ -22,7 +23,7 @@ double norm(const std::vector<double>& x) {
 class Steady {
  public:
   Steady(const DarcyFlow& flow, FaceConditions faces, std::vector<double> start)
-      : flow_(flow), flips_(faces.size(), 0) {
+      : flow_(flow), switch_(flow, faces.size(), most_flips) {
     found_.faces = std::move(faces);
     found_.head = std::move(start);
     inflow_.resize(flow.particles());
@@ -33,7 +34,7 @@ class Steady {
     for (int i = 0; i < most_switches; ++i) {
       flow_.pin(found_.head, found_.faces);
       newton();
-      if (!switch_faces()) return std::move(found_);
+      if (!switch_.update(found_.head, found_.faces)) return std::move(found_);
     }
     throw std::runtime_error(
         fmt::format("steady seepage: seepage faces still open and close after {} rounds; a finer spacing, or "
@@ -83,30 +84,11 @@ class Steady {
     return next;
   }
 
-  /// Returns whether any changed. One that goes on changing stays closed: it is where the water table meets
-  /// the face, to within a patch.
-  bool switch_faces() {
-    const std::vector<double> through = flow_.through_patches(found_.head, found_.faces);
-    const std::vector<double> pressure = flow_.pressure_heads_at_patches(found_.head);
-    const double tiny =
-        1e-9 * deterministic_sum(through.size(), [&](std::size_t p) { return std::abs(through[p]); });
-    bool changed = false;
-    for (std::size_t p = 0; p < through.size(); ++p) {
-      const auto patch = static_cast<std::int32_t>(p);
-      if (flips_[p] >= most_flips || !found_.faces.seeps(patch)) continue;
-      const bool open = found_.faces.open(patch);
-      if (open ? !(through[p] > tiny) : !(pressure[p] > 0)) continue;
-      found_.faces.set_open(patch, !open);
-      ++flips_[p], changed = true;
-    }
-    return changed;
-  }
-
   const DarcyFlow& flow_;
   SteadySeepage found_;
   SparseRows slope_;
   std::vector<double> inflow_, change_;
-  std::vector<int> flips_;
+  FaceSwitch switch_;
   double largest_ = 0;  ///< imbalance that was seen [m2/s]
 };
 

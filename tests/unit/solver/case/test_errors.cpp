@@ -86,7 +86,8 @@ TEST_CASE("values that are wrong by themselves") {
        "TotalStress, PorePressure, Density, Mass, SmoothingLength, SoilId, ParticleId, "
        "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, Yielding, "
        "MobilisedFriction, Head, PressureHead, Saturation, DarcyVelocity, HydraulicGradient, "
-       "PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength, VoidRatio, Preconsolidation; "
+       "GradientRatio, PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength, VoidRatio, "
+       "Preconsolidation; "
        "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",

@@ -93,6 +93,30 @@ TEST_CASE("a written case reads as the same case") {
   CHECK(back.probes[1].position == Point(7, 1));
 }
 
+TEST_CASE("water that flows is read, written and read as the same") {
+  std::string text = small_case;
+  const std::string retention =
+      GENERATE(as<std::string>(), "{ model = 'van_genuchten', alpha = 2, n = 1.5, residual = 0.1 }",
+               "{ model = 'table', saturation = [[0, 1], [1, 0.2]], permeability = [[0, 1], [1, 1e-3]] }");
+  text.insert(text.find("poissons_ratio"),
+              "permeability = 1e-5\nvelocity = [0, 0.5]\nretention = " + retention + "\n");
+  text +=
+      "\n[water]\nmode = 'transient'\nstart_level = 0.25\nrigid_soil = true\n"
+      "[[water.face]]\nkind = 'closed'\n[[water.face]]\nkind = 'rain'\nrate_over_time = [[0, 0], [60, "
+      "1e-6]]\n"
+      "from = [0, 2]\nto = [4, 2]\n[[water.drain]]\nname = 'well'\nfrom = [0.5, 0.5]\nlevel = 0.3\n"
+      "[[section]]\nname = 'middle'\nfrom = [0.5, 0]\nto = [0.5, 2]\n";
+  const Case c = parse_case(text, "box.toml");
+  const Case back = parse_case(write_case(c), "written");
+  CHECK(same(back, c));
+  CHECK(back.soils[0].velocity == Point(0, 0.5));
+  CHECK(back.soils[0].retention.model == c.soils[0].retention.model);
+  CHECK(back.water.transient.start_level == 0.25);
+  CHECK(back.water.faces[1].rate_over_time.size() == 2);
+  CHECK(back.water.drains[0].level == 0.3);
+  CHECK(back.sections[0].to == Point(0.5, 2));
+}
+
 TEST_CASE("the strength of a soil is read, written and read as the same") {
   const std::string law =
       GENERATE(as<std::string>(),

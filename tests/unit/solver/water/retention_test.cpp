@@ -21,15 +21,36 @@ TEST_CASE("van Genuchten's and Mualem's curves go through published soils", "[wa
 TEST_CASE("the slope of kr is its derivative", "[water]") {
   const RetentionCase law =
       GENERATE(RetentionCase{.model = RetentionModel::van_genuchten, .alpha = 3.6, .n = 1.56},
-               RetentionCase{.model = RetentionModel::gardner, .alpha = 2}, RetentionCase{});
+               RetentionCase{.model = RetentionModel::gardner, .alpha = 2}, RetentionCase{},
+               RetentionCase{.model = RetentionModel::table,
+                             .saturation = {{0, 1}, {0.2, 0.8}, {1, 0.1}},
+                             .permeability = {{0, 1}, {0.2, 0.3}, {1, 1e-4}}});
   const Retention soil(law, 0.5);
   for (const double psi : {-0.01, -0.1, -0.3, -2.0}) {
     constexpr double step = 1e-6;
     const double slope = (soil.permeability(psi + step).kr - soil.permeability(psi - step).kr) / (2 * step);
     CAPTURE(static_cast<int>(law.model), psi);
     CHECK(soil.permeability(psi).slope == Approx(slope).epsilon(1e-5));
+    const double stored =
+        (soil.stored(psi + step).saturation - soil.stored(psi - step).saturation) / (2 * step);
+    CHECK(soil.stored(psi).slope == Approx(stored).epsilon(1e-5).margin(1e-12));
   }
   CHECK(soil.permeability(0).kr == 1);
   CHECK(soil.permeability(3).kr == 1);
   CHECK(soil.saturation(1) == 1);
+}
+
+TEST_CASE("kr is continuous and has a slope up to saturation", "[water]") {
+  const double n = GENERATE(1.09, 1.56, 2.0, 2.68);
+  const Retention soil({.model = RetentionModel::van_genuchten, .alpha = 2, .n = n}, 0.5);
+  double before = 1;
+  for (const double psi : {-1e-17, -1e-9, -4.999e-4, -5.001e-4, -1e-3}) {
+    const Retention::Permeability p = soil.permeability(psi);
+    CAPTURE(n, psi);
+    CHECK(std::isfinite(p.slope));
+    CHECK(p.slope >= 0);
+    CHECK(p.kr <= before);
+    before = p.kr;
+  }
+  CHECK(soil.permeability(-5.001e-4).kr == Approx(soil.permeability(-4.999e-4).kr).epsilon(1e-3));
 }
