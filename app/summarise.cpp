@@ -13,6 +13,7 @@
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
 #include "solver/sph/consistent/consistent.hpp"
+#include "vtk_io/run_folder/safety_files.hpp"
 
 namespace porosph::app {
 namespace {
@@ -60,10 +61,18 @@ std::string tell(const Summary::Consolidation& c) {
 
 std::string tell(const std::vector<Summary::Stage>& stages) {
   std::string text;
+  const auto tell = [](const std::optional<Summary::Safety>& safety) -> std::string {
+    if (!safety || (safety->stable_at == 0 && !std::isfinite(safety->fails_at))) return "";
+    return fmt::format("  factor of safety {}{}\n", bracket_text(safety->stable_at, safety->fails_at),
+                       safety->limit_equilibrium > 0
+                           ? fmt::format("; limit equilibrium {:.3f}", safety->limit_equilibrium)
+                           : "");
+  };
   for (const Summary::Stage& stage : stages)
     text += fmt::format("stage '{}' from {:.6g} to {:.6g} s, ended by {}: {} particles, {:.4g} mm at most\n",
                         stage.name, stage.start, stage.time, stage.ended, stage.particles,
-                        1e3 * stage.largest_displacement);
+                        1e3 * stage.largest_displacement) +
+            tell(stage.safety);
   return text;
 }
 

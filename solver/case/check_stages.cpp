@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/case/safety_obstacle.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/stages.hpp"
 
@@ -115,6 +116,9 @@ Issues check_stages(const Case& scene) {
       issues.push_back({fmt::format("stage[{}]", i),
                         fmt::format("in stage '{}' {}: {}", plan.name(),
                                     key_in_file(issue.key, plan.scene(), scene), issue.message)});
+    if (!scene.stages[i].safety || !issues.empty()) continue;
+    if (const std::string obstacle = safety_obstacle(plan.scene()); !obstacle.empty())
+      issues.push_back({fmt::format("stage[{}].safety", i), obstacle});
   }
   return issues;
 }

@@ -44,6 +44,15 @@ void declare(Fields& f, StageCase& c) {
           "here."),
       c.set);
   f.flag(Key("reset_displacements", "", "Whether displacements count from here."), c.reset_displacements);
+  f.flag(
+      Key("safety", "",
+          "Whether the factor of safety of its last state is found, once it has come to rest or to its end "
+          "(docs/safety.md)."),
+      c.safety);
+  f.number(Key("safety_bracket", "",
+               "How close to each other the factors shall be at which the soil rests and fails.")
+               .only_if(c.safety, "safety = true"),
+           c.safety_bracket, between(1e-4, 1));
 }
 
 }  // namespace porosph

@@ -95,6 +95,12 @@ double latest_end(const Case& scene) {
   return end;
 }
 
+Case last_stage(const Case& scene) {
+  StagePlan plan(scene);
+  while (!plan.is_last()) plan.go_on(plan.scene().time.end);
+  return plan.scene();
+}
+
 void require_plain(const Case& scene, std::string_view who) {
   if (!scene.stages.empty())
     throw std::runtime_error(
@@ -331,6 +337,7 @@ std::vector<std::string> StagePlan::changes() const {
   tell("adds boundary", s.support_on), tell("removes boundary", s.support_off);
   tell("sets", s.set);
   if (s.reset_displacements) told.push_back("displacements count from here");
+  if (s.safety) told.push_back("the factor of safety is found at its end");
   return told;
 }
 

@@ -24,6 +24,8 @@ class StagePlan {
   bool is_last() const { return stage_ == stages_.size(); }
   std::string name() const { return stage_ == 0 ? "start" : stages_[stage_ - 1].name; }
   bool resets_displacements() const { return stage_ > 0 && stages_[stage_ - 1].reset_displacements; }
+  /// The table that the present stage is; null before the first.
+  const StageCase* table() const { return stage_ > 0 ? &stages_[stage_ - 1] : nullptr; }
   /// What the stage changes, for people: "removes 'pit'", ...
   std::vector<std::string> changes() const;
 
@@ -64,6 +66,9 @@ class StagePlan {
 
 /// Throws std::runtime_error where a case has stages or starts from another run, which `who` does not follow.
 void require_plain(const Case& scene, std::string_view who);
+
+/// The last stage of a case, as planned; the case itself where there are none.
+Case last_stage(const Case& scene);
 
 /// Time at which the last stage of a case ends if none comes to rest before [s].
 double latest_end(const Case& scene);

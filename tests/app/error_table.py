@@ -156,6 +156,7 @@ OF_THE_GROUND = [
     ("a footing in the paper's form", "[time]", FOOTING + "[formulation]\nmotion = \"proposed\"\n[time]"),
     ("a footing in a case with stages", "[time]", FOOTING + "[[stage]]\nname = \"next\"\nduration = 1\n[time]"),
 ]
+STRENGTH = 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n'
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
 
 
@@ -189,6 +190,8 @@ IN_A_STAGE = [
     ("a setting of a stage with a typing mistake", "[[boundary]]", stage('set = ["water.levle = 1"]')),
     ("a setting of a stage out of range", "[[boundary]]", stage('set = ["soil.sand.poissons_ratio = 0.5"]')),
     ("a setting that holds throughout", "[[boundary]]", stage('set = ["particles.spacing = 0.1"]')),
+    ("a factor of safety of elastic soil", "[[boundary]]", stage("safety = true")),
+    ("a bracket of no factor of safety", "[[boundary]]", STRENGTH + stage("safety_bracket = 0.1")),
     ("a setting that moves soil", "[[boundary]]", stage('set = ["soil.sand.polygon = [[0, 0], [1, 0], [1, 1]]"]')),
     ("stages of consolidation", WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nlevel = 3\n'
      '[[stage]]\nname = "next"\nduration = 1\n'),
@@ -217,9 +220,12 @@ ON_THE_COMMAND_LINE = [
     ("a start from a folder without a state", "run case.toml --out started --set start_from=nothing", {}),
     ("a start from soil with other particles", "run case.toml --out started --set start_from=run --set particles.spacing=0.4",
      {}),
-    ("a factor of safety of a case with stages", "safety staged.toml", {
-        "staged.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
-        + '[[stage]]\nname = "next"\nduration = 1\n'}),
+    ("a failure of a case with stages", "safety staged.toml --then-run", {
+        "staged.toml": CASE.replace("[[boundary]]", STRENGTH + "[[boundary]]") + '[[stage]]\nname = "next"\nduration = 1\n'}),
+    ("limit equilibrium under a footing", "safety footing.toml --method both", {
+        "footing.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING + "[[boundary]]")}),
+    ("a factor of safety of a footing that is pushed", "safety pushed.toml", {
+        "pushed.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]") + "[[boundary]]")}),
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
     ("finite elements into that folder", "fem case.toml --out other", {}),

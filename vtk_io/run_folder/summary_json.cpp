@@ -83,6 +83,14 @@ Json object_of(const std::map<std::string, Value>& entries) {
   return object;
 }
 
+Json to_json(const Summary::Safety& safety) {
+  Json json;
+  put(json, "stable_at", safety.stable_at), put(json, "fails_at", safety.fails_at);
+  if (safety.limit_equilibrium > 0) put(json, "limit_equilibrium", safety.limit_equilibrium);
+  if (!safety.note.empty()) json["note"] = safety.note;
+  return json;
+}
+
 Json to_json(const Summary::Stage& stage) {
   Json json;
   json["name"] = stage.name, json["ended"] = stage.ended;
@@ -91,6 +99,7 @@ Json to_json(const Summary::Stage& stage) {
   put(json, "unbalanced_force_ratio", stage.unbalanced_force_ratio);
   put(json, "largest_displacement", stage.largest_displacement);
   json["probes"] = object_of(stage.probes);
+  if (stage.safety) json["safety"] = to_json(*stage.safety);
   return json;
 }
 
@@ -298,6 +307,13 @@ std::map<std::string, Summary::Probe> probes_from(const Object& json) {
   return probes;
 }
 
+Summary::Safety safety_from(const Object& json) {
+  return {.stable_at = json.number("stable_at"),
+          .fails_at = json.number("fails_at"),
+          .limit_equilibrium = json.has("limit_equilibrium") ? json.number("limit_equilibrium") : 0,
+          .note = json.has("note") ? json.text("note") : ""};
+}
+
 Summary::Stage stage_from(const Object& json) {
   return {.name = json.text("name"),
           .ended = json.text("ended"),
@@ -307,7 +323,9 @@ Summary::Stage stage_from(const Object& json) {
           .particles = json.integer<std::int64_t>("particles"),
           .unbalanced_force_ratio = json.number("unbalanced_force_ratio"),
           .largest_displacement = json.number("largest_displacement"),
-          .probes = probes_from(json.object("probes"))};
+          .probes = probes_from(json.object("probes")),
+          .footings = {},
+          .safety = json.has("safety") ? std::optional(safety_from(json.object("safety"))) : std::nullopt};
 }
 
 Summary summary_from(const Object& json) {

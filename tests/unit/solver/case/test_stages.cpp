@@ -32,7 +32,7 @@ std::string stage_text(const std::string& keys) {
 }
 
 /// Brings the fill, which is absent before.
-const std::string last_stage =
+const std::string later_stage =
     "[[stage]]\nname = 'filled'\nduration = 1\nfill = ['fill']\nload_off = ['strip']\n";
 
 }  // namespace
@@ -77,15 +77,15 @@ TEST_CASE("stages that cannot be") {
       {"duration2 = 1\n", "key 'stage[0].duration2': is not known; did you mean 'duration'?"},
   }));
   CAPTURE(wrong.keys);
-  CHECK_THAT(errors_with(things + stage_text(wrong.keys) + last_stage),
+  CHECK_THAT(errors_with(things + stage_text(wrong.keys) + later_stage),
              Contains(wrong.error) && Contains("box.toml:"));
 }
 
 TEST_CASE("stages name what is there") {
   CHECK(errors_with(things + stage_text("load_off = ['strip']\nfill = ['fill']\n")) == "");
   CHECK(errors_with(things + stage_text("set = ['water.level = 3', 'loading.damping = \"adaptive\"']\n") +
-                    last_stage) == "");
-  CHECK_THAT(errors_with(things + stage_text("") + stage_text("") + last_stage),
+                    later_stage) == "");
+  CHECK_THAT(errors_with(things + stage_text("") + stage_text("") + later_stage),
              Contains("key 'stage[1].name' = \"next\": is the name of stage[0] too"));
   CHECK_THAT(errors_with("[[stage]]\nname = 'start'\nduration = 1\n"),
              Contains("is what the part of the run before the first stage is called"));
