@@ -43,6 +43,16 @@ void visit_stage(StateArchive& state, Summary::Stage& stage) {
   state.value("stage_displacement", stage.largest_displacement);
 }
 
+void visit_footings(StateArchive& state, const std::vector<FootingCase>& all, Summary::Stage& stage) {
+  for (const FootingCase& footing : all) {
+    bool is_there = stage.footings.contains(footing.name);
+    state.value("stage_footing", is_there);
+    if (!is_there) continue;
+    Summary::Footing& f = stage.footings[footing.name];
+    for (double* value : {&f.force, &f.shear, &f.settlement, &f.width}) state.value("footing", *value);
+  }
+}
+
 void visit_safety(StateArchive& state, std::optional<Summary::Safety>& safety) {
   bool is_there = safety.has_value();
   state.value("stage_safety", is_there);
@@ -81,6 +91,17 @@ std::map<std::string, Summary::Probe> probe_readings(const Simulation& s) {
   return readings;
 }
 
+std::map<std::string, Summary::Footing> footing_readings(Simulation& s) {
+  std::map<std::string, Summary::Footing> readings;
+  if (!s.footings().empty()) s.accelerations();  // for the forces at this instant
+  for (const Footing& f : s.footings())
+    readings[f.name()] = {.force = f.force(),
+                          .shear = f.shear(),
+                          .settlement = f.settlement(s.model().particles),
+                          .width = f.width()};
+  return readings;
+}
+
 StagedRun::StagedRun(const Case& scene, const HandedOver* state) : scene_(scene), plan_(scene) {
   begin({.time = 0, .state = state});
 }
@@ -92,17 +113,18 @@ void StagedRun::begin(const Beginning& beginning) {
 void StagedRun::end(const RunOutcome& outcome, std::optional<Summary::Safety> safety) {
   if (!has_stages()) return;
   Simulation& s = *simulation_;
-  ended_.push_back({.name = plan_.name(),
-                    .ended = ending(outcome),
-                    .start = s.start_time(),
-                    .time = s.time(),
-                    .steps = s.step(),
-                    .particles = static_cast<std::int64_t>(s.model().particles.size()),
-                    .unbalanced_force_ratio = s.showable() ? s.unbalanced_force_ratio() : std::nan(""),
-                    .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
-                    .probes = probe_readings(s),
-                    .footings = {},
-                    .safety = std::move(safety)});
+  ended_.push_back(
+      {.name = plan_.name(),
+       .ended = ending(outcome),
+       .start = s.start_time(),
+       .time = s.time(),
+       .steps = s.step(),
+       .particles = static_cast<std::int64_t>(s.model().particles.size()),
+       .unbalanced_force_ratio = s.showable() ? s.unbalanced_force_ratio() : std::nan(""),
+       .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
+       .probes = probe_readings(s),
+       .footings = s.showable() ? footing_readings(s) : std::map<std::string, Summary::Footing>(),
+       .safety = std::move(safety)});
 }
 
 bool StagedRun::goes_on() const {
@@ -126,6 +148,7 @@ void StagedRun::visit(StateArchive& state) {
   for (Summary::Stage& stage : std::span(ended_).first(static_cast<std::size_t>(count))) {
     visit_stage(state, stage);
     visit_probes(state, scene_.probes, stage);
+    visit_footings(state, scene_.footings, stage);
     visit_safety(state, stage.safety);
     if (!state.restoring()) continue;
     stage.name = plan_.name();

@@ -47,4 +47,7 @@ class StagedRun {
 /// Readings of the probes at the present instant, by their names.
 std::map<std::string, Summary::Probe> probe_readings(const Simulation& simulation);
 
+/// What holds the footings at the present instant, by their names.
+std::map<std::string, Summary::Footing> footing_readings(Simulation& simulation);
+
 }  // namespace porosph::app

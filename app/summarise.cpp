@@ -134,6 +134,7 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
   if (const FlowRecord* flow = s.model().pore_water->record())
     summary.seepage = {flow->through_faces, flow->imbalance, flow->newton_steps, flow->krylov_iterations};
   summary.probes = probe_readings(s);
+  if (s.showable()) summary.footings = footing_readings(s);
   if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
   return summary;
@@ -173,6 +174,9 @@ std::string tell(const Summary& s) {
       text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name, probe.x,
                           probe.y, probe.values.at("EffectiveStress_YY") / 1e3,
                           probe.values.at("Displacement_Y") * 1e3, beside_finite_elements(s, name));
+  for (const auto& [name, f] : s.footings)
+    text += fmt::format("{}: {:.5g} kN/m, {:.3g} kN/m along it, settled {:.4g} mm\n", name, f.force / 1e3,
+                        f.shear / 1e3, 1e3 * f.settlement);
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=

@@ -33,17 +33,29 @@ std::string safety_text(const Summary::Safety& safety) {
   return text;
 }
 
+/// "plate: 51.4 kN/m, 40 mm"
+std::string footing_text(const std::map<std::string, Summary::Footing>& footings) {
+  std::string text;
+  for (const auto& [name, f] : footings)
+    text += fmt::format("{}{}: {:.4g} kN/m, {:.3g} mm", text.empty() ? "" : "; ", name, f.force / 1e3,
+                        1e3 * f.settlement);
+  return text;
+}
+
 std::string table_of(const std::vector<Summary::Stage>& stages) {
   std::vector<std::vector<std::string>> rows = {
       {"Stage", "From [s]", "To [s]", "Ended by", "Steps", "Particles", "Largest displacement [mm]"}};
   const bool safety = std::ranges::any_of(stages, [](const auto& s) { return s.safety.has_value(); });
   if (safety) rows[0].push_back("Factor of safety");
+  const bool footings = std::ranges::any_of(stages, [](const auto& s) { return !s.footings.empty(); });
+  if (footings) rows[0].push_back("Footings");
   for (const auto& [name, probe] : stages.front().probes) rows[0].push_back(name + ": u_x, u_y; σ'yy");
   for (const Summary::Stage& s : stages) {
     rows.push_back({s.name, fmt::format("{:.4g}", s.start), fmt::format("{:.4g}", s.time),
                     ending_text(s.ended), fmt::format("{}", s.steps), fmt::format("{}", s.particles),
                     fmt::format("{:.4g}", 1e3 * s.largest_displacement)});
     if (safety) rows.back().push_back(s.safety ? safety_text(*s.safety) : "");
+    if (footings) rows.back().push_back(footing_text(s.footings));
     for (const auto& [name, probe] : s.probes) rows.back().push_back(probe_text(probe));
   }
   return html::table(rows);

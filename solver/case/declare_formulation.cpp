@@ -61,14 +61,14 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
-  f.number(
-      key_of_consistent("zero_energy_stiffness",
-                        "Elastic part of that control: a spring of this times the control's strength "
-                        "times the constrained modulus of the softest soil in reach; 0: viscous only.")
-          .otherwise("0.2 where soils of different stiffness meet, 0.1 where outlines cut cells; 0.6 where "
-                     "walls turn corners, slits part the soil or gradients had to be closed; 0.1 in place of "
-                     "these if soil may yield; else 0"),
-      c.zero_energy_stiffness, between(0, 10));
+  f.number(key_of_consistent("zero_energy_stiffness",
+                             "Elastic part of that control: a spring of this times the control's strength "
+                             "times the constrained modulus of the softest soil in reach; 0: viscous only.")
+               .otherwise(
+                   "0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, or loads or "
+                   "footings press; 0.6 where walls turn corners, slits part the soil or gradients had to be "
+                   "closed; 0.1 in place of these if soil may yield; else 0"),
+           c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
                .otherwise(fmt::to_string(usual.refresh_strain)),

@@ -154,9 +154,9 @@ OF_THE_GROUND = [
     ("a footing that jumps", "[time]", FOOTING.replace("force = 1e4", "settlement = 0.1") + "[time]"),
     ("a footing on a wall", "[time]", FOOTING.replace(", 2]", ", 0]") + "[time]"),
     ("a footing in the paper's form", "[time]", FOOTING + "[formulation]\nmotion = \"proposed\"\n[time]"),
-    ("a footing in a case with stages", "[time]", FOOTING + "[[stage]]\nname = \"next\"\nduration = 1\n[time]"),
 ]
 STRENGTH = 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n'
+PLATE = FOOTING.replace("[1, 2]", "[0, 2]").replace("[3, 2]", "[0.9, 2]")
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
 
 
@@ -185,6 +185,16 @@ IN_A_STAGE = [
     ("stress of a fill without one", "[[boundary]]", stage('fill_stress = "k0"')),
     ("a load that is not there", "[[boundary]]", stage('load_off = ["strop"]')),
     ("a load that has gone already", "[[boundary]]", stage('load_off = ["strip", "strip"]')),
+    ("a footing that is not there", "[[boundary]]", stage('footing_off = ["plat"]', FILL + LOAD + PLATE)),
+    ("a footing that is there already", "[[boundary]]",
+     stage('footing_off = ["plate"]\nfooting_on = ["plate", "plate"]', FILL + LOAD + PLATE)),
+    ("a fill on a footing", "[[boundary]]",
+     stage('footing_on = ["plate"]', FILL + LOAD + PLATE)),
+    ("digging under a footing", "[[boundary]]",
+     stage('excavate_within = [[[0, 1], [1, 1], [1, 2], [0, 2]]]', FILL + LOAD + PLATE).replace('load_off = ["strip"]', 'load_off = ["strip"]\nfooting_off = ["plate"]')),
+    ("a factor of safety of a footing that is pushed", "[[boundary]]", STRENGTH + stage(
+        'safety = true', FILL + LOAD + PLATE.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]"))),
+    ("a stage that moves a footing", "[[boundary]]", stage('set = ["footing.plate.from = [0, 2]"]', FILL + LOAD + PLATE)),
     ("a ramp without a load", "[[boundary]]", stage("ramp = 1")),
     ("a boundary that is not there", "[[boundary]]", stage('support_off = ["left"]')),
     ("a setting of a stage with a typing mistake", "[[boundary]]", stage('set = ["water.levle = 1"]')),
@@ -208,6 +218,7 @@ WARNED_OF = [
                                                        "[[0, 2], [4, 2], [4, 2.6], [0, 2.6]]") + "[[boundary]]"),
     ("a lattice that does not fit", "spacing = 0.5", "spacing = 0.7\narrangement = \"lattice\""),
     ("water below all soil", "[time]", "[[water.stretches]]\nx_to = 2\nlevel = -1\n[time]"),
+    ("a footing with few neighbours around its edge", "[[boundary]]", STRENGTH + FOOTING + "[[boundary]]"),
     ("a time step that is too large", "end = 0.1", "end = 0.1\ncourant = 1.2"),
 ]
 # What is wrong, the command, and what is put into files beforehand.

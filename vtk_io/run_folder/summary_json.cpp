@@ -76,6 +76,13 @@ Json to_json(const ErrorNorms& norms) {
   return object;
 }
 
+Json to_json(const Summary::Footing& footing) {
+  Json json;
+  put(json, "force", footing.force), put(json, "shear", footing.shear);
+  put(json, "settlement", footing.settlement), put(json, "width", footing.width);
+  return json;
+}
+
 template <typename Value>
 Json object_of(const std::map<std::string, Value>& entries) {
   Json object = Json::object();
@@ -99,6 +106,7 @@ Json to_json(const Summary::Stage& stage) {
   put(json, "unbalanced_force_ratio", stage.unbalanced_force_ratio);
   put(json, "largest_displacement", stage.largest_displacement);
   json["probes"] = object_of(stage.probes);
+  if (!stage.footings.empty()) json["footings"] = object_of(stage.footings);
   if (stage.safety) json["safety"] = to_json(*stage.safety);
   return json;
 }
@@ -152,6 +160,7 @@ Json to_json(const Summary& summary) {
     put(object, "drained", c.drained), put(object, "imbalance", c.imbalance);
   }
   json["probes"] = object_of(summary.probes);
+  if (!summary.footings.empty()) json["footings"] = object_of(summary.footings);
   for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -307,6 +316,20 @@ std::map<std::string, Summary::Probe> probes_from(const Object& json) {
   return probes;
 }
 
+std::map<std::string, Summary::Footing> footings_from(const Object& json) {
+  std::map<std::string, Summary::Footing> footings;
+  if (!json.has("footings")) return footings;
+  const Object all = json.object("footings");
+  for (const auto& name : all.keys()) {
+    const Object f = all.object(name);
+    footings[name] = {.force = f.number("force"),
+                      .shear = f.number("shear"),
+                      .settlement = f.number("settlement"),
+                      .width = f.number("width")};
+  }
+  return footings;
+}
+
 Summary::Safety safety_from(const Object& json) {
   return {.stable_at = json.number("stable_at"),
           .fails_at = json.number("fails_at"),
@@ -324,7 +347,7 @@ Summary::Stage stage_from(const Object& json) {
           .unbalanced_force_ratio = json.number("unbalanced_force_ratio"),
           .largest_displacement = json.number("largest_displacement"),
           .probes = probes_from(json.object("probes")),
-          .footings = {},
+          .footings = footings_from(json),
           .safety = json.has("safety") ? std::optional(safety_from(json.object("safety"))) : std::nullopt};
 }
 
@@ -348,6 +371,7 @@ Summary summary_from(const Object& json) {
   summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");
   summary.energy_growth = json.number("energy_growth");
   summary.probes = probes_from(json.object("probes"));
+  summary.footings = footings_from(json);
   if (json.has("stages"))
     for (const Object& stage : json.objects("stages")) summary.stages.push_back(stage_from(stage));
   if (json.has("errors")) {
