@@ -16,6 +16,7 @@
 #include "app/numbers.hpp"
 #include "app/range.hpp"
 #include "render/report/study.hpp"
+#include "vtk_io/run_folder/safety_files.hpp"
 
 namespace porosph::app {
 namespace {
@@ -145,6 +146,11 @@ int report_command(const Arguments& arguments) {
       input.studies.push_back(folder);
     else
       input.runs.push_back(open_run(folder));
+  for (const FinishedRun& run : input.runs)
+    if (run.summary)
+      for (const Summary::Stage& stage : run.summary->stages)
+        if (const fs::path study = run.folder / safety_folder(stage.name); stage.safety && is_study(study))
+          input.studies.push_back(study);
   if (input.runs.empty())
     throw UsageError(fmt::format("no run among the folders; the page of a study alone is {}",
                                  (fs::path(o->runs.front()) / "index.html").string()));

@@ -43,6 +43,12 @@ void remove_file(const fs::path& file) {
   if (error) throw WriteError(file, error.message());
 }
 
+void remove_safety(const fs::path& folder) {
+  for (const char* name : {"safety.csv", "safety.json", "safety.png", "mechanism.png", "slip_surfaces.csv",
+                           "slip_surfaces.vtp", "index.html", "study.json"})
+    remove_file(folder / name);
+}
+
 void remove_results(const fs::path& folder) {
   remove_checkpoints(folder);
   for (const char* name :
@@ -53,16 +59,17 @@ void remove_results(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("particles_") || name.starts_with("boundary_")) remove_file(entry.path());
   }
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with("safety_") && fs::exists(entry.path() / "safety.json"))
+      remove_safety(entry.path());
 }
 
 /// Of runs, of finite elements and of factors of safety.
 void remove_what_is_of_another(const fs::path& folder, const std::string& case_text) {
   if (!is_of_another(folder, case_text)) return;
   remove_results(folder);
-  for (const char* name :
-       {"fem.vtu", "probes.csv", "safety.csv", "safety.json", "safety.png", "mechanism.png",
-        "slip_surfaces.csv", "slip_surfaces.vtp", "index.html", "study.json"})
-    remove_file(folder / name);
+  for (const char* name : {"fem.vtu", "probes.csv"}) remove_file(folder / name);
+  remove_safety(folder);
 }
 
 /// Takes the folder for this case, empty of a run's results. The case file comes last: what is in the folder

@@ -15,6 +15,7 @@
 #include "app/results.hpp"
 #include "app/say.hpp"
 #include "app/shipped_cases.hpp"
+#include "app/stage_safety.hpp"
 #include "app/summarise.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
@@ -248,13 +249,21 @@ class Recorder {
 };
 
 /// Carries the run through its stages; `so_far` is where the last one got.
-RunOutcome run_stages(StagedRun& stages, Recorder& recorder, bool quiet, RunProgress& so_far) {
+RunOutcome run_stages(StagedRun& stages, Recorder& recorder, const Options& options, RunProgress& so_far) {
+  const bool quiet = options.quiet;
   while (true) {
     Progress progress(quiet, stages.simulation());
-    const RunOutcome outcome = run(stages.simulation(), recorder.watch(progress), so_far);
+    RunOutcome outcome = run(stages.simulation(), recorder.watch(progress), so_far);
     progress.finish();
     if (outcome.status == RunStatus::interrupted) return outcome;
-    stages.end(outcome);
+    std::optional<Summary::Safety> safety;
+    if (stages.asks_for_safety() && !outcome.failed && outcome.status != RunStatus::unstable)
+      safety = find_stage_safety(stages, options.folder, quiet);
+    if (is_interrupted()) {  // the last checkpoint is in this stage, from where its end is found again
+      outcome.status = RunStatus::interrupted, outcome.message = "stopped by request";
+      return outcome;
+    }
+    stages.end(outcome, std::move(safety));
     if (!stages.goes_on()) return outcome;
     stages.go_on();
     so_far = {.stepping_seconds = outcome.stepping_seconds};
@@ -307,7 +316,7 @@ int run_command(const Arguments& arguments) {
 
   Recorder recorder(results, stages, options->checkpoint_every, start, left_off ? left_off->wall_seconds : 0);
   RunProgress so_far = left_off ? left_off->progress : RunProgress{};
-  const RunOutcome outcome = run_stages(stages, recorder, options->quiet, so_far);
+  const RunOutcome outcome = run_stages(stages, recorder, *options, so_far);
   Summary summary = summarise(stages, outcome, recorder.wall_seconds());
   summary.finite_elements = check_by_fem(stages.simulation(), summary);
   summary.warnings = warnings;

@@ -1,13 +1,16 @@
 // porosph safety: the factor of safety of a case, by the particles and by limit equilibrium.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include "app/command.hpp"
+#include "app/find_safety.hpp"
 #include "app/interruption.hpp"
+#include "app/left_off.hpp"
 #include "app/let_fail.hpp"
+#include "app/progress.hpp"
 #include "app/results.hpp"
 #include "app/say.hpp"
 #include "app/shipped_cases.hpp"
@@ -15,20 +18,11 @@
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
-#include "solver/case/stages.hpp"
+#include "solver/case/safety_obstacle.hpp"
+#include "solver/model/model.hpp"
 #include "solver/printable.hpp"
-#include "solver/reference/limit_equilibrium/section_of_case.hpp"
 #include "solver/water/transient_water.hpp"
-#include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
-#include "vtk_io/run_folder/safety_files.hpp"
-#ifdef POROSPH_HAS_VTK
-#include "vtk_io/line_vtp.hpp"
-#endif
-#ifdef POROSPH_HAS_RENDER
-#include "render/report/safety_study.hpp"
-#include "render/run/safety_pictures.hpp"
-#endif
 
 namespace porosph::app {
 namespace {
@@ -95,48 +89,63 @@ std::optional<Options> read_options(const Arguments& arguments) {
   return o;
 }
 
-void check_soils(const Case& scene) {
-  require_plain(scene, "porosph safety");
-  if (!scene.loading.gravity_applied)
-    throw UsageError(
-        "safety: loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety");
-  for (const SoilCase& soil : scene.soils)
-    if (soil.law != LawKind::elastic) return;
-  throw UsageError(
-      "safety: no soil of the case has a strength: give one soil[].law = \"mohr_coulomb\", "
-      "\"drucker_prager\" or "
-      "\"tresca\"");
-}
-
-/// Limit equilibrium takes pore pressure from a level; that of flow it does not know.
-void check_water(const Case& scene, const Options& o) {
-  if (scene.loading.horizontal != 0 && o.by_limit_equilibrium())
-    throw UsageError(
-        "safety: limit equilibrium knows no horizontal acceleration (loading.horizontal); "
-        "--method strength-reduction does");
+/// What has no answer, or none by the method that was asked for. `scene`: of the last stage.
+void check_possible(const Case& scene, const Options& o) {
+  if (const std::string obstacle = safety_obstacle(scene); !obstacle.empty())
+    throw UsageError("safety: " + obstacle);
   const bool transient = scene.water.mode == WaterMode::transient;
   if (o.at && !transient) throw UsageError("--at: is for seepage over time, water.mode = \"transient\"");
   if (o.at && !(*o.at >= 0 && *o.at <= scene.time.end))
     throw UsageError(fmt::format("--at = {}: must be from 0 to time.end = {} s", *o.at, scene.time.end));
-  if (!scene.footings.empty() && o.by_limit_equilibrium())
-    throw UsageError(
-        "safety: limit equilibrium knows no footing ([[footing]]); --method strength-reduction does");
   if (o.then_run && transient)
     throw UsageError("--then-run is not for seepage over time, water.mode = \"transient\"");
-  if (!scene.water.flows()) return;
-  if (scene.water.couples())
-    throw UsageError(
-        fmt::format("safety: water.mode = \"{}\" is not possible: the factor of safety is that of soil at "
-                    "rest in still or "
-                    "steady water; give undrained clay the law \"tresca\" in still water",
-                    name(scene.water.mode)));
-  if (!o.by_particles())
-    throw UsageError(
-        fmt::format("safety: limit equilibrium is for still water, but water.mode is \"{}\"; "
-                    "--method strength-reduction takes the water that flows",
-                    name(scene.water.mode)));
-  if (o.by_limit_equilibrium() && !o.quiet)
-    say(stdout, "note: limit equilibrium is for still water and is left out\n");
+  const std::string obstacle = limit_equilibrium_obstacle(scene);
+  if (obstacle.empty() || !o.by_limit_equilibrium()) return;
+  if (!scene.water.flows() || !o.by_particles())
+    throw UsageError(fmt::format("safety: limit equilibrium {}; --method strength-reduction does", obstacle));
+  if (!o.quiet) say(stdout, "note: limit equilibrium is for still water and is left out\n");
+}
+
+/// The body whose factor is asked for, and the state that it is in.
+struct Body {
+  Case scene;
+  std::optional<HandedOver> state;  ///< none: as drawn
+};
+
+/// The last stage of a case, as those before leave the soil. Throws std::runtime_error where one of them
+/// fails by itself.
+Body after_all_stages(const Case& scene, const HandedOver* from, bool quiet) {
+  StagedRun stages(scene, from);
+  use_threads(0, stages.simulation().model().particles.size());
+  while (true) {
+    Progress progress(quiet, stages.simulation());
+    const RunOutcome outcome = run(stages.simulation(), {.frame = {},
+                                                         .history = {},
+                                                         .progress = [&](const auto& s) { progress.show(s); },
+                                                         .interrupted = is_interrupted});
+    progress.finish();
+    if (outcome.status == RunStatus::interrupted) return {};
+    stages.end(outcome);
+    const Summary::Stage& ended = stages.ended().back();
+    if (ended.ended == "failure" || ended.ended == "unstable")
+      throw std::runtime_error(
+          fmt::format("safety: stage '{}' fails with the soil's full strength, at {:g} s: {}", ended.name,
+                      ended.time, outcome.message));
+    if (!quiet)
+      say(stdout, fmt::format("stage '{}' ended at {:.6g} s, by {}\n", ended.name, ended.time, ended.ended));
+    if (!stages.goes_on()) break;
+    stages.go_on();
+  }
+  Body last{stages.plan().scene(), stages.simulation().hand_over()};
+  last.scene.time.end = stages.simulation().time();
+  return last;
+}
+
+Body body_of(const Case& scene, bool quiet) {
+  std::optional<HandedOver> from;
+  if (!scene.start_from.empty()) from = last_state(scene.start_from);
+  if (scene.stages.empty()) return {scene, std::move(from)};
+  return after_all_stages(scene, from ? &*from : nullptr, quiet);
 }
 
 /// The flow as it is at that time holds in all trials.
@@ -152,97 +161,44 @@ void flow_until(double time, Case& scene, bool quiet) {
                             water.richards().counts().steps, watch.seconds()));
 }
 
-void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {
-  const Stopwatch watch;
-  answer.limit_equilibrium = limit_equilibrium::find_critical_surfaces(limit_equilibrium::section_of(scene));
-  answer.limit_equilibrium_seconds = watch.seconds();
-}
-
-void find_by_particles(const Case& scene, const Options& o, SafetyAnswer& answer) {
-  StrengthReductionOptions options{.bracket = o.bracket, .jobs = o.jobs, .interrupted = is_interrupted};
-  if (answer.limit_equilibrium) options.first_guess = answer.limit_equilibrium->bishop.factor;
-  if (!o.quiet)
-    options.finished = [](const StrengthTrial& t) {
-      say(stdout, fmt::format("strength / {:<7.4f} {}, {:.4g} m after {} steps\n", t.factor, words_of(t.end),
-                              t.displacement, t.steps));
-    };
-  const Stopwatch watch;
-  answer.particles = reduce_strength(scene, options);
-  answer.particle_seconds = watch.seconds();
-}
-
-void tell(const SafetyAnswer& answer) {
-  say(stdout, "\nfactor of safety\n");
-  const auto row = [](const std::string& method, const std::string& factor, double seconds) {
-    say(stdout, fmt::format("  {:36} {:18} {:.2f} s\n", method, factor, seconds));
-  };
-  if (answer.particles)
-    row("strength reduction, particles", bracket_text(*answer.particles), answer.particle_seconds);
-  for (const NamedSurface& s : slip_surfaces(answer))
-    row("limit equilibrium, " + s.name, fmt::format("{:.3f}", s.surface.factor),
-        answer.limit_equilibrium_seconds);
-  if (answer.limit_equilibrium && !answer.limit_equilibrium->spencer)
-    say(stdout, "  Spencer's method has no solution: steep soil would hang on its crest in tension\n");
-}
-
-void write([[maybe_unused]] const Case& scene, const SafetyAnswer& answer,
-           [[maybe_unused]] const std::string& command, const fs::path& folder) {
-  if (answer.particles) write_trials(folder / "safety.csv", *answer.particles);
-  if (answer.limit_equilibrium) {
-    write_slip_surfaces(folder / "slip_surfaces.csv", answer);
-#ifdef POROSPH_HAS_VTK
-    std::vector<std::vector<Point>> lines;
-    std::vector<double> factors;
-    for (const NamedSurface& s : slip_surfaces(answer))
-      lines.push_back(s.surface.points), factors.push_back(s.surface.factor);
-    write_lines_vtp(folder / "slip_surfaces.vtp", lines, "FactorOfSafety", factors);
-#endif
-  }
-#ifdef POROSPH_HAS_RENDER
-  if (answer.particles) save_safety_curve(answer, folder / "safety.png");
-  save_mechanism(scene, answer, folder / "mechanism.png");
-  write_study(safety_study(answer, command), folder);
-#endif
-  write_safety_summary(folder / "safety.json", answer);
-}
-
 }  // namespace
 
 int safety_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
-  Case scene = read_case(find_case(o->case_file), o->overrides);
-  check_soils(scene);
-  check_water(scene, *o);
+  const Case scene = read_case(find_case(o->case_file), o->overrides);
+  check_possible(last_stage(scene), *o);
+  if (o->then_run && !scene.stages.empty())
+    throw UsageError(
+        "--then-run is for a case without stages: a [[stage]] that sets the soils' strength lets it fail");
   const fs::path folder = o->folder.empty()
                               ? fs::path("results") / (fs::path(o->case_file).stem().string() + "_safety")
                               : fs::path(o->folder);
   catch_interruptions();
   const std::string case_text = write_case(scene);
-  const bool over_time = scene.water.mode == WaterMode::transient;
   const FolderLock lock(folder);
   if (!o->force) check_owner(folder, case_text, true);
-  SafetyAnswer answer;
-  answer.title = scene.title;
-  answer.warnings = warnings_of(scene);
-  warn(answer.warnings);
-  if (over_time) flow_until(o->at.value_or(scene.time.end), scene, o->quiet);
+  const std::vector<std::string> warnings = warnings_of(scene);
+  warn(warnings);
+  Body body = body_of(scene, o->quiet);
+  if (body.scene.water.mode == WaterMode::transient)
+    flow_until(o->at.value_or(scene.time.end), body.scene, o->quiet);
   if (is_interrupted()) return Exit::interrupted;
-  if (!scene.water.flows()) find_by_limit_equilibrium(scene, answer);
+  SafetyAnswer answer = find_safety(body.scene, {.by_particles = o->by_particles(),
+                                                 .by_limit_equilibrium = o->by_limit_equilibrium(),
+                                                 .bracket = o->bracket,
+                                                 .jobs = o->jobs,
+                                                 .from = body.state ? &*body.state : nullptr,
+                                                 .quiet = o->quiet});
   if (!answer.limit_equilibrium && !o->by_particles())
     throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
-  if (o->by_particles()) find_by_particles(scene, *o, answer);
   if (is_interrupted()) return Exit::interrupted;
-  if (!o->by_limit_equilibrium()) answer.limit_equilibrium.reset();
-  const std::string apart = disagreement(answer);
-  if (!apart.empty()) answer.warnings.push_back(apart);
+  const std::vector<std::string> doubts = answer.warnings;
+  answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   take_folder(folder, case_text);
-  write(scene, answer, command_line("safety", arguments), folder);
-  if (!o->quiet) {
-    tell(answer);
-    say(stdout, folder.string() + "\n");
-  }
-  if (!apart.empty()) warn({apart});
+  write_safety(body.scene, answer, command_line("safety", arguments), folder);
+  if (!o->quiet) say(stdout, "\nfactor of safety\n" + tell(answer) + folder.string() + "\n");
+  warn(doubts);
   return o->then_run ? let_fail(scene, *answer.particles, *o->then_run, folder, o->quiet) : Exit::done;
 }
 

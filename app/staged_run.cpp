@@ -43,6 +43,33 @@ void visit_stage(StateArchive& state, Summary::Stage& stage) {
   state.value("stage_displacement", stage.largest_displacement);
 }
 
+void visit_footings(StateArchive& state, const std::vector<FootingCase>& all, Summary::Stage& stage) {
+  for (const FootingCase& footing : all) {
+    bool is_there = stage.footings.contains(footing.name);
+    state.value("stage_footing", is_there);
+    if (!is_there) continue;
+    Summary::Footing& f = stage.footings[footing.name];
+    for (double* value : {&f.force, &f.shear, &f.settlement, &f.width}) state.value("footing", *value);
+  }
+}
+
+void visit_safety(StateArchive& state, std::optional<Summary::Safety>& safety) {
+  bool is_there = safety.has_value();
+  state.value("stage_safety", is_there);
+  if (!is_there) return safety.reset();
+  if (state.restoring()) safety.emplace();
+  state.value("stable_at", safety->stable_at);
+  state.value("fails_at", safety->fails_at);
+  state.value("limit_equilibrium", safety->limit_equilibrium);
+  std::vector<char> note(safety->note.begin(), safety->note.end());
+  std::int64_t length = std::ssize(note);
+  state.value("note_length", length);
+  if (length < 0 || length > 10'000) throw StateError("the saved state has a note that is none");
+  note.resize(static_cast<std::size_t>(length));
+  state.array("note", note);
+  safety->note.assign(note.begin(), note.end());
+}
+
 void visit_probes(StateArchive& state, const std::vector<ProbeCase>& probes, Summary::Stage& stage) {
   for (const ProbeCase& probe : probes) {
     Summary::Probe& p = stage.probes[probe.name];
@@ -64,6 +91,17 @@ std::map<std::string, Summary::Probe> probe_readings(const Simulation& s) {
   return readings;
 }
 
+std::map<std::string, Summary::Footing> footing_readings(Simulation& s) {
+  std::map<std::string, Summary::Footing> readings;
+  if (!s.footings().empty()) s.accelerations();  // for the forces at this instant
+  for (const Footing& f : s.footings())
+    readings[f.name()] = {.force = f.force(),
+                          .shear = f.shear(),
+                          .settlement = f.settlement(s.model().particles),
+                          .width = f.width()};
+  return readings;
+}
+
 StagedRun::StagedRun(const Case& scene, const HandedOver* state) : scene_(scene), plan_(scene) {
   begin({.time = 0, .state = state});
 }
@@ -72,18 +110,21 @@ void StagedRun::begin(const Beginning& beginning) {
   simulation_ = std::make_unique<Simulation>(plan_.scene(), beginning);
 }
 
-void StagedRun::end(const RunOutcome& outcome) {
+void StagedRun::end(const RunOutcome& outcome, std::optional<Summary::Safety> safety) {
   if (!has_stages()) return;
   Simulation& s = *simulation_;
-  ended_.push_back({.name = plan_.name(),
-                    .ended = ending(outcome),
-                    .start = s.start_time(),
-                    .time = s.time(),
-                    .steps = s.step(),
-                    .particles = static_cast<std::int64_t>(s.model().particles.size()),
-                    .unbalanced_force_ratio = s.showable() ? s.unbalanced_force_ratio() : std::nan(""),
-                    .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
-                    .probes = probe_readings(s)});
+  ended_.push_back(
+      {.name = plan_.name(),
+       .ended = ending(outcome),
+       .start = s.start_time(),
+       .time = s.time(),
+       .steps = s.step(),
+       .particles = static_cast<std::int64_t>(s.model().particles.size()),
+       .unbalanced_force_ratio = s.showable() ? s.unbalanced_force_ratio() : std::nan(""),
+       .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
+       .probes = probe_readings(s),
+       .footings = s.showable() ? footing_readings(s) : std::map<std::string, Summary::Footing>(),
+       .safety = std::move(safety)});
 }
 
 bool StagedRun::goes_on() const {
@@ -107,6 +148,8 @@ void StagedRun::visit(StateArchive& state) {
   for (Summary::Stage& stage : std::span(ended_).first(static_cast<std::size_t>(count))) {
     visit_stage(state, stage);
     visit_probes(state, scene_.probes, stage);
+    visit_footings(state, scene_.footings, stage);
+    visit_safety(state, stage.safety);
     if (!state.restoring()) continue;
     stage.name = plan_.name();
     if (!plan_.go_on(stage.time).empty()) throw StateError("the saved state is not of the case's stages");

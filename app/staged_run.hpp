@@ -19,8 +19,10 @@ class StagedRun {
   const StagePlan& plan() const { return plan_; }
   bool has_stages() const { return !scene_.stages.empty(); }
 
-  /// Notes how the present stage ended.
-  void end(const RunOutcome& outcome);
+  /// Whether the present stage asks for its factor of safety.
+  bool asks_for_safety() const { return plan_.table() != nullptr && plan_.table()->safety; }
+  /// Notes how the present stage ended, and its factor of safety.
+  void end(const RunOutcome& outcome, std::optional<Summary::Safety> safety = std::nullopt);
   /// Whether another stage follows: the present one has come to its end, without failure.
   bool goes_on() const;
   /// Begins the next stage where the present one ended. Throws as Simulation.
@@ -44,5 +46,8 @@ class StagedRun {
 
 /// Readings of the probes at the present instant, by their names.
 std::map<std::string, Summary::Probe> probe_readings(const Simulation& simulation);
+
+/// What holds the footings at the present instant, by their names.
+std::map<std::string, Summary::Footing> footing_readings(Simulation& simulation);
 
 }  // namespace porosph::app

@@ -13,6 +13,7 @@
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
 #include "solver/sph/consistent/consistent.hpp"
+#include "vtk_io/run_folder/safety_files.hpp"
 
 namespace porosph::app {
 namespace {
@@ -87,10 +88,18 @@ Summary::TransientSeepage transient_summary(const Simulation& s) {
 
 std::string tell(const std::vector<Summary::Stage>& stages) {
   std::string text;
+  const auto tell = [](const std::optional<Summary::Safety>& safety) -> std::string {
+    if (!safety || (safety->stable_at == 0 && !std::isfinite(safety->fails_at))) return "";
+    return fmt::format("  factor of safety {}{}\n", bracket_text(safety->stable_at, safety->fails_at),
+                       safety->limit_equilibrium > 0
+                           ? fmt::format("; limit equilibrium {:.3f}", safety->limit_equilibrium)
+                           : "");
+  };
   for (const Summary::Stage& stage : stages)
     text += fmt::format("stage '{}' from {:.6g} to {:.6g} s, ended by {}: {} particles, {:.4g} mm at most\n",
                         stage.name, stage.start, stage.time, stage.ended, stage.particles,
-                        1e3 * stage.largest_displacement);
+                        1e3 * stage.largest_displacement) +
+            tell(stage.safety);
   return text;
 }
 
@@ -161,6 +170,7 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
       summary.seepage->sections[s.scene().sections[i].name] = flow->through_sections[i];
   }
   summary.probes = probe_readings(s);
+  if (s.showable()) summary.footings = footing_readings(s);
   if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
   return summary;
@@ -204,6 +214,9 @@ std::string tell(const Summary& s) {
       text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name, probe.x,
                           probe.y, probe.values.at("EffectiveStress_YY") / 1e3,
                           probe.values.at("Displacement_Y") * 1e3, beside_finite_elements(s, name));
+  for (const auto& [name, f] : s.footings)
+    text += fmt::format("{}: {:.5g} kN/m, {:.3g} kN/m along it, settled {:.4g} mm\n", name, f.force / 1e3,
+                        f.shear / 1e3, 1e3 * f.settlement);
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=

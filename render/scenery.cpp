@@ -1,6 +1,7 @@
 #include "render/scenery.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -318,6 +319,24 @@ void draw_load(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>&
   }
 }
 
+/// A bar on the outside of the soil's surface, with a thick line against the soil where it is rough.
+void draw_footing(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
+                  const FootingCase& footing) {
+  constexpr double thickness = 9;
+  const Point way = footing.to - footing.from;
+  Point normal = Point(way.y(), -way.x()).normalized();
+  if (inside_soil(soils, (footing.from + footing.to) / 2 + 1e-3 * way.norm() * normal)) normal = -normal;
+  const Pixel from = plot.at(footing.from.x(), footing.from.y()),
+              to = plot.at(footing.to.x(), footing.to.y());
+  const auto outside = [&](Pixel p) {
+    return Pixel{p.x + thickness * normal.x(), p.y + thickness * normal.y()};
+  };
+  const std::array<Pixel, 5> corners{from, to, outside(to), outside(from), from};
+  canvas.polygon(std::span(corners).first(4), {.colour = {150, 150, 155}});
+  canvas.line(corners, {.colour = black, .width = 1.2});
+  if (footing.rough) canvas.line(from, to, {.colour = black, .width = 3});
+}
+
 std::vector<Pixel> pixels_of(const Plot& plot, const std::vector<Point>& points) {
   std::vector<Pixel> pixels;
   for (const Point& p : points) pixels.push_back(plot.at(p.x(), p.y()));
@@ -379,6 +398,7 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
   for (const auto& table : scenery.water_table) draw_water_table(canvas, plot, table);
   for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
   for (const LoadCase& load : scenery.loads) draw_load(canvas, plot, scenery.soils, load);
+  for (const FootingCase& footing : scenery.footings) draw_footing(canvas, plot, scenery.soils, footing);
   draw_probes(canvas, plot, scenery);
   draw_lines(canvas, plot, scenery);
 }

@@ -22,11 +22,12 @@ struct SceneryLine {
 };
 
 struct Scenery {
-  std::vector<SoilOutline> soils;        ///< [m]
-  std::vector<WaterStretch> water;       ///< [m]
-  std::vector<BoundaryCase> boundaries;  ///< [m]
-  std::vector<ProbeCase> probes;         ///< [m]
-  std::vector<LoadCase> loads = {};      ///< as at the end of the case
+  std::vector<SoilOutline> soils;          ///< [m]
+  std::vector<WaterStretch> water;         ///< [m]
+  std::vector<BoundaryCase> boundaries;    ///< [m]
+  std::vector<ProbeCase> probes;           ///< [m]
+  std::vector<LoadCase> loads = {};        ///< as at the end of the case
+  std::vector<FootingCase> footings = {};  ///< drawn where they were placed
   std::vector<SceneryLine> lines = {};
   std::vector<std::vector<Point>> water_table = {};  ///< lines in the soil [m]
 };
@@ -48,8 +49,8 @@ bool inside_soil(const std::vector<SoilOutline>& soils, Point point);
 /// Where draw_scenery puts probes and their names.
 std::vector<Box> probe_boxes(const Plot& plot, const Scenery& scenery);
 
-/// Soil outlines, water level with its triangle, supports on the side away from the soil, loads, probes,
-/// further lines with a legend where it hides none of them. Lines only: water is filled beneath the
+/// Soil outlines, water level with its triangle, supports on the side away from the soil, loads, footings,
+/// probes, further lines with a legend where it hides none of them. Lines only: water is filled beneath the
 /// particles. Water is drawn from `x_from` to `x_to` at most.
 void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to);
 

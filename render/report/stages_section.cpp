@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/report/html.hpp"
+#include "vtk_io/run_folder/safety_files.hpp"
 
 namespace porosph {
 namespace {
@@ -22,14 +24,38 @@ std::string probe_text(const Summary::Probe& probe) {
                      1e3 * value("Displacement_Y"), value("EffectiveStress_YY") / 1e3);
 }
 
+/// "1.35 to 1.36; 1.38 on slip surfaces"
+std::string safety_text(const Summary::Safety& safety) {
+  const bool bracketed = safety.stable_at > 0 || std::isfinite(safety.fails_at);
+  std::string text = bracketed ? bracket_text(safety.stable_at, safety.fails_at) : "none";
+  if (safety.limit_equilibrium > 0)
+    text += fmt::format("; {:.3f} on slip surfaces", safety.limit_equilibrium);
+  return text;
+}
+
+/// "plate: 51.4 kN/m, 40 mm"
+std::string footing_text(const std::map<std::string, Summary::Footing>& footings) {
+  std::string text;
+  for (const auto& [name, f] : footings)
+    text += fmt::format("{}{}: {:.4g} kN/m, {:.3g} mm", text.empty() ? "" : "; ", name, f.force / 1e3,
+                        1e3 * f.settlement);
+  return text;
+}
+
 std::string table_of(const std::vector<Summary::Stage>& stages) {
   std::vector<std::vector<std::string>> rows = {
       {"Stage", "From [s]", "To [s]", "Ended by", "Steps", "Particles", "Largest displacement [mm]"}};
+  const bool safety = std::ranges::any_of(stages, [](const auto& s) { return s.safety.has_value(); });
+  if (safety) rows[0].push_back("Factor of safety");
+  const bool footings = std::ranges::any_of(stages, [](const auto& s) { return !s.footings.empty(); });
+  if (footings) rows[0].push_back("Footings");
   for (const auto& [name, probe] : stages.front().probes) rows[0].push_back(name + ": u_x, u_y; σ'yy");
   for (const Summary::Stage& s : stages) {
     rows.push_back({s.name, fmt::format("{:.4g}", s.start), fmt::format("{:.4g}", s.time),
                     ending_text(s.ended), fmt::format("{}", s.steps), fmt::format("{}", s.particles),
                     fmt::format("{:.4g}", 1e3 * s.largest_displacement)});
+    if (safety) rows.back().push_back(s.safety ? safety_text(*s.safety) : "");
+    if (footings) rows.back().push_back(footing_text(s.footings));
     for (const auto& [name, probe] : s.probes) rows.back().push_back(probe_text(probe));
   }
   return html::table(rows);

@@ -75,6 +75,7 @@ Scenery scenery_of(const Case& scene) {
   Scenery scenery{
       .soils = {}, .water = scene.water.stretches, .boundaries = scene.boundaries, .probes = scene.probes};
   scenery.loads = scene.loads;
+  scenery.footings = scene.footings;
   if (seeps(scene)) scenery.water = water_beside_faces(scene);
   for (const SoilCase& soil : scene.soils) scenery.soils.push_back({soil.polygon, soil.holes});
   return scenery;
@@ -94,6 +95,24 @@ std::vector<Polygon> drawn_cells(const Case& scene, const std::vector<Point>& st
   for (Polygon& cell : cells)
     for (Point& corner : cell) corner *= overlap;
   return cells;
+}
+
+/// Plates go as the soil at their middle: they are rigid.
+void move_footings(ContourPanel& panel, const Case& scene, const std::vector<Point>& starts,
+                   const std::vector<Point>& displacements, double factor) {
+  if (panel.scenery.footings.empty()) return;
+  std::vector<Point> middles;
+  for (const FootingCase& f : panel.scenery.footings) middles.push_back((f.from + f.to) / 2);
+  std::vector<double> u_x, u_y;
+  for (const Point& u : displacements) u_x.push_back(u.x()), u_y.push_back(u.y());
+  const Sampler sample(middles, starts, scene.smoothing_length());
+  const std::vector<double> x = sample(u_x), y = sample(u_y);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    FootingCase& footing = panel.scenery.footings[i];
+    const Point along = (footing.to - footing.from).normalized(), across(-along.y(), along.x());
+    const Point way = factor * across.dot(Point(x[i], y[i])) * across;
+    if (way.allFinite()) footing.from += way, footing.to += way;
+  }
 }
 
 void deform_surroundings(ContourPanel& panel, const Case& scene, const std::vector<Point>& starts,
@@ -167,6 +186,7 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
     drawn[i] += (deformation - 1) * displacements[i];
   }
   if (style != FieldStyle::particles) add_smooth_field(panel, scene, starts, positions, drawn);
+  if (scene != nullptr) move_footings(panel, *scene, starts, displacements, deformation);
   if (deformation == 1) return panel;
   if (deformation != 0) panel.before = panel.scenery.soils;
   if (scene != nullptr) deform_surroundings(panel, *scene, starts, displacements, deformation);

@@ -54,8 +54,11 @@ double upper_end(std::vector<double> values) {
   return values[static_cast<std::size_t>(0.99 * static_cast<double>(values.size() - 1))];
 }
 
-ContourFigure strain_figure(const Case& scene, Simulation& failed) {
+/// Plastic strain of the trial alone.
+ContourFigure strain_figure(const Case& scene, const StrengthReduction& found) {
+  Simulation& failed = *found.mechanism;
   std::vector<double> strain = values_of_field(make_frame(failed, {"PlasticStrain"}), "PlasticStrain");
+  for (std::size_t i = 0; i < found.strain_before.size(); ++i) strain[i] -= found.strain_before[i];
   const double end = std::max(upper_end(strain), 1e-12);
   ContourFigure figure{.title = scene.title, .panels = {}, .scale = {.label = "plastic strain [-]"}};
   figure.scale.range = ValueRange{0, end};
@@ -110,7 +113,7 @@ void save_safety_curve(const SafetyAnswer& answer, const std::filesystem::path& 
 
 void save_mechanism(const Case& scene, const SafetyAnswer& answer, const std::filesystem::path& path) {
   const bool failed = answer.particles && answer.particles->mechanism;
-  ContourFigure figure = failed ? strain_figure(scene, *answer.particles->mechanism) : soil_figure(scene);
+  ContourFigure figure = failed ? strain_figure(scene, *answer.particles) : soil_figure(scene);
   ContourPanel& panel = figure.panels.front();
   panel.scenery = scenery_with_surfaces(scene, answer);
   if (failed)

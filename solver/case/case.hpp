@@ -249,10 +249,13 @@ struct StageCase {
   std::vector<std::string> fill;         ///< soils that are placed; absent before
   FillStress fill_stress = FillStress::none;
   std::vector<std::string> load_on, load_off;        ///< loads
-  double ramp = 0;                                   ///< in which those grow and fall [s]
+  std::vector<std::string> footing_on, footing_off;  ///< footings
+  double ramp = 0;  ///< in which loads grow and fall, and footings' forces [s]
   std::vector<std::string> support_on, support_off;  ///< boundaries
   std::vector<std::string> set;                      ///< "key = value", as overrides
   bool reset_displacements = false;                  ///< displacements count from here
+  bool safety = false;           ///< at its end the factor of safety of its last state is found
+  double safety_bracket = 0.01;  ///< how narrow it is bracketed [-]
 };
 
 struct Case {

@@ -87,11 +87,10 @@ std::vector<CaseIssue> check_footings(const Case& c) {
       issues.push_back({key, fault});
     if (c.formulation.motion != Motion::consistent)
       issues.push_back({key, "a footing needs formulation.motion = \"consistent\""});
-    if (!c.stages.empty() || c.plan) issues.push_back({key, "a footing does not go with stages"});
     if (c.water.couples() && settles)
       issues.push_back({key + ".settlement",
                         fmt::format("with water.mode = \"{}\" a footing needs 'force'", name(c.water.mode))});
-    if (c.water.flows_over_time())
+    if (c.water.mode == WaterMode::transient)
       issues.push_back(
           {key, fmt::format("a footing does not go with water.mode = \"{}\"", name(c.water.mode))});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/case/safety_obstacle.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/stages.hpp"
 
@@ -40,7 +41,7 @@ Issues check_settings_of_stages(const Case& c) {
 /// All soils and probes together; boundaries, loads and water are matters of each stage.
 Issues check_together(const Case& scene) {
   Case all = scene;
-  all.stages.clear(), all.boundaries.clear(), all.loads.clear();
+  all.stages.clear(), all.boundaries.clear(), all.loads.clear(), all.footings.clear();
   all.water.stretches.clear(), all.water.level_over_time.clear(), all.water.faces.clear();
   all.water.mode = WaterMode::still;
   all.water.drains.clear(), all.sections.clear();
@@ -88,6 +89,11 @@ std::string key_in_file(const std::string& key, const Case& stage, const Case& f
     return std::ranges::find(file.loads, stage.loads[i].name, &LoadCase::name) - file.loads.begin();
   });
   if (!load.empty()) return load;
+  const std::string footing = number("footing", [&](std::size_t i) {
+    return std::ranges::find(file.footings, stage.footings[i].name, &FootingCase::name) -
+           file.footings.begin();
+  });
+  if (!footing.empty()) return footing;
   const std::string boundary = number("boundary", [&](std::size_t i) {
     const BoundaryCase& b = stage.boundaries[i];
     return std::ranges::find_if(file.boundaries,
@@ -116,6 +122,9 @@ Issues check_stages(const Case& scene) {
       issues.push_back({fmt::format("stage[{}]", i),
                         fmt::format("in stage '{}' {}: {}", plan.name(),
                                     key_in_file(issue.key, plan.scene(), scene), issue.message)});
+    if (!scene.stages[i].safety || !issues.empty()) continue;
+    if (const std::string obstacle = safety_obstacle(plan.scene()); !obstacle.empty())
+      issues.push_back({fmt::format("stage[{}].safety", i), obstacle});
   }
   return issues;
 }

@@ -31,19 +31,36 @@ void declare(Fields& f, StageCase& c) {
               "Names of loads that act from here; absent before. Their over_time counts from here."),
           c.load_on);
   f.texts(Key("load_off", "", "Names of loads that end."), c.load_off);
-  f.number(Key("ramp", "s", "How long these loads take to come, or to go.")
-               .only_if(!c.load_on.empty() || !c.load_off.empty(), "load_on or load_off"),
+  f.texts(
+      Key("footing_on", "",
+          "Names of footings that are placed on the ground as it then lies; absent before. Their over_time "
+          "and their settlement count from here."),
+      c.footing_on);
+  f.texts(Key("footing_off", "", "Names of footings that are lifted off."), c.footing_off);
+  f.number(Key("ramp", "s",
+               "How long these loads take to come, or to go, and the force of these footings to come.")
+               .only_if(!c.load_on.empty() || !c.load_off.empty() || !c.footing_on.empty(),
+                        "load_on, load_off or footing_on"),
            c.ramp, between(0, longest));
   f.texts(Key("support_on", "", "Names of boundaries that hold from here; absent before."), c.support_on);
   f.texts(Key("support_off", "", "Names of boundaries that are removed."), c.support_off);
-  f.texts(
-      Key("set", "",
-          "Keys of the case that have another value from here, as [\"water.level = 2\", "
-          "\"soil.clay.cohesion = 3e3\"]: of `soil` (but not where it is), `water`, `loading`, `load`, "
-          "`formulation` (but not its motion) and `stop`, and time.courant. Times in what is set count from "
-          "here."),
-      c.set);
+  f.texts(Key("set", "",
+              "Keys of the case that have another value from here, as [\"water.level = 2\", "
+              "\"soil.clay.cohesion = 3e3\"]: of `soil` (but not where it is), `water`, `loading`, `load`, "
+              "`footing`, `formulation` (but not its motion) and `stop`, and time.courant. Times in what is "
+              "set count from "
+              "here."),
+          c.set);
   f.flag(Key("reset_displacements", "", "Whether displacements count from here."), c.reset_displacements);
+  f.flag(
+      Key("safety", "",
+          "Whether the factor of safety of its last state is found, once it has come to rest or to its end "
+          "(docs/safety.md)."),
+      c.safety);
+  f.number(Key("safety_bracket", "",
+               "How close to each other the factors shall be at which the soil rests and fails.")
+               .only_if(c.safety, "safety = true"),
+           c.safety_bracket, between(1e-4, 1));
 }
 
 }  // namespace porosph

@@ -58,15 +58,18 @@ std::string setting_fault(const std::string& key) {
     return std::ranges::any_of(names, [&](std::string_view n) { return k.ends_with(n); });
   };
   const bool known = k.starts_with("soil.") || k.starts_with("water.") || k.starts_with("loading.") ||
-                     k.starts_with("load.") || k.starts_with("formulation.") || k.starts_with("stop.") ||
-                     k == "time.courant";
+                     k.starts_with("load.") || k.starts_with("footing.") || k.starts_with("formulation.") ||
+                     k.starts_with("stop.") || k == "time.courant";
   if (!known)
-    return "a stage may set keys of soil, water, loading, load, formulation and stop, and time.courant";
+    return "a stage may set keys of soil, water, loading, load, footing, formulation and stop, and "
+           "time.courant";
   if (k.starts_with("soil.") && ends_with_one_of({".name", ".polygon", ".holes", ".velocity",
                                                   ".angular_velocity", ".bending_velocity"}))
     return "a stage cannot move or rename a soil: see excavate and fill";
   if (k.starts_with("load.") && ends_with_one_of({".name", ".from", ".to"}))
     return "a stage cannot move or rename a load: declare another, and see load_on and load_off";
+  if (k.starts_with("footing.") && ends_with_one_of({".name", ".from", ".to"}))
+    return "a stage cannot move or rename a footing: declare another, and see footing_on and footing_off";
   if (k == "formulation.motion") return "one form of the motion equation holds throughout";
   if (k == "loading.k0_stress" || k == "loading.gravity")
     return "this holds from the start: see fill_stress for soil that is placed";
@@ -93,6 +96,12 @@ double latest_end(const Case& scene) {
   double end = scene.time.end;
   for (const StageCase& stage : scene.stages) end += stage.duration;
   return end;
+}
+
+Case last_stage(const Case& scene) {
+  StagePlan plan(scene);
+  while (!plan.is_last()) plan.go_on(plan.scene().time.end);
+  return plan.scene();
 }
 
 void require_plain(const Case& scene, std::string_view who) {
@@ -151,6 +160,9 @@ void StagePlan::find_absent() {
         !begins_absent(stages_, file_.soils[piece.soil].name, &StageCase::excavate, &StageCase::fill);
   for (const LoadCase& load : file_.loads)
     load_on_.push_back(!begins_absent(stages_, load.name, &StageCase::load_off, &StageCase::load_on));
+  for (const FootingCase& footing : file_.footings)
+    footing_on_.push_back(
+        !begins_absent(stages_, footing.name, &StageCase::footing_off, &StageCase::footing_on));
   for (const BoundaryCase& b : file_.boundaries)
     support_on_.push_back(b.name.empty() ||
                           !begins_absent(stages_, b.name, &StageCase::support_off, &StageCase::support_on));
@@ -172,9 +184,11 @@ void StagePlan::make_current(double end) {
   Case c = file_;
   c.plan = plan_;
   c.soils = soils(false);
-  c.loads.clear(), c.boundaries.clear();
+  c.loads.clear(), c.footings.clear(), c.boundaries.clear();
   for (std::size_t i = 0; i < file_.loads.size(); ++i)
     if (load_on_[i]) c.loads.push_back(file_.loads[i]);
+  for (std::size_t i = 0; i < file_.footings.size(); ++i)
+    if (footing_on_[i]) c.footings.push_back(file_.footings[i]);
   for (std::size_t i = 0; i < file_.boundaries.size(); ++i)
     if (support_on_[i] && lies_on_soil(c, file_.boundaries[i])) c.boundaries.push_back(file_.boundaries[i]);
   c.time.end = end;
@@ -193,6 +207,7 @@ Issues StagePlan::go_on(double time) {
   if (!issues.empty()) return issues;
   change_soils(stage, key, issues);
   change_loads(stage, key, time, issues);
+  change_footings(stage, key, time, issues);
   change_supports(stage, key, issues);
   if (!issues.empty()) return issues;
   ++stage_;
@@ -215,10 +230,14 @@ void StagePlan::change_settings(const StageCase& stage, const std::string& key, 
     issues.push_back({fault.setting < 0 ? key + ".set" : item(key, "set", fault.setting), fault.message});
   if (!issues.empty()) return;
   if (keys.contains("water.level_over_time")) shift(file_.water.level_over_time, time);
-  for (std::size_t i = 0; i < file_.loads.size(); ++i)
-    if (keys.contains("load." + file_.loads[i].name + ".over_time") ||
-        keys.contains(fmt::format("load.{}.over_time", i)))
-      shift(file_.loads[i].over_time, time);
+  const auto shift_set = [&](std::string_view list, auto& items) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (keys.contains(fmt::format("{}.{}.over_time", list, items[i].name)) ||
+          keys.contains(fmt::format("{}.{}.over_time", list, i)))
+        shift(items[i].over_time, time);
+  };
+  shift_set("load", file_.loads);
+  shift_set("footing", file_.footings);
 }
 
 void StagePlan::change_soils(const StageCase& stage, const std::string& key, Issues& issues) {
@@ -255,33 +274,44 @@ void StagePlan::change_soils(const StageCase& stage, const std::string& key, Iss
   if (std::ranges::none_of(pieces_, &Piece::present)) issues.push_back({key, "leaves no soil at all"});
 }
 
+namespace {
+
+/// A load or footing that a stage switches on or off: its place among all, or -1 and what is wrong.
+template <class T>
+int place_of(const std::vector<T>& items, std::string_view what, const std::string& name,
+             const std::vector<char>& is_on, bool on, const std::string& key, Issues& issues) {
+  const int place = find_named(items, name);
+  if (place >= 0 && static_cast<bool>(is_on[place]) != on) return place;
+  if (place < 0)
+    issues.push_back({key, fmt::format("no {} is called so: there are {}", what, names_of(items))});
+  else
+    issues.push_back(
+        {key, fmt::format("this {} {}", what, on ? "acts already" : "does not act in this stage")});
+  return -1;
+}
+
+/// The course of a load or footing that begins to act at a time, over `ramp` where that is not 0.
+void begin_course(std::vector<Point>& course, double time, double ramp, std::string_view what,
+                  const std::string& name, const std::string& key, Issues& issues) {
+  if (ramp > 0 && !course.empty())
+    issues.push_back({key + ".ramp", fmt::format("{} '{}' has an over_time of its own", what, name)});
+  if (ramp > 0) course = {{0, 0}, {ramp, 1}};
+  shift(course, time);
+}
+
+}  // namespace
+
 void StagePlan::change_loads(const StageCase& stage, const std::string& key, double time, Issues& issues) {
-  const auto place = [&](std::string_view list, const std::vector<std::string>& names, std::size_t i,
-                         bool on) {
-    const int load = find_named(file_.loads, names[i]);
-    if (load < 0)
-      issues.push_back(
-          {item(key, list, i), fmt::format("no load is called so: there are {}", names_of(file_.loads))});
-    else if (static_cast<bool>(load_on_[load]) == on)
-      issues.push_back(
-          {item(key, list, i), on ? "this load acts already" : "this load does not act in this stage"});
-    else
-      return load;
-    return -1;
-  };
   for (std::size_t i = 0; i < stage.load_on.size(); ++i) {
-    const int load = place("load_on", stage.load_on, i, true);
+    const std::string& name = stage.load_on[i];
+    const int load = place_of(file_.loads, "load", name, load_on_, true, item(key, "load_on", i), issues);
     if (load < 0) continue;
-    std::vector<Point>& course = file_.loads[load].over_time;
     load_on_[load] = true;
-    if (stage.ramp > 0 && !course.empty())
-      issues.push_back(
-          {key + ".ramp", fmt::format("load '{}' has an over_time of its own", stage.load_on[i])});
-    if (stage.ramp > 0) course = {{0, 0}, {stage.ramp, 1}};
-    shift(course, time);
+    begin_course(file_.loads[load].over_time, time, stage.ramp, "load", name, key, issues);
   }
   for (std::size_t i = 0; i < stage.load_off.size(); ++i) {
-    const int load = place("load_off", stage.load_off, i, false);
+    const int load =
+        place_of(file_.loads, "load", stage.load_off[i], load_on_, false, item(key, "load_off", i), issues);
     if (load < 0) continue;
     if (stage.ramp == 0) {
       load_on_[load] = false;
@@ -290,6 +320,22 @@ void StagePlan::change_loads(const StageCase& stage, const std::string& key, dou
     std::vector<Point>& course = file_.loads[load].over_time;
     const double now = course.empty() ? 1 : value_at(course, time);
     course = {{time, now}, {time + stage.ramp, 0}};
+  }
+}
+
+void StagePlan::change_footings(const StageCase& stage, const std::string& key, double time, Issues& issues) {
+  for (std::size_t i = 0; i < stage.footing_on.size(); ++i) {
+    const std::string& name = stage.footing_on[i];
+    const int footing =
+        place_of(file_.footings, "footing", name, footing_on_, true, item(key, "footing_on", i), issues);
+    if (footing < 0) continue;
+    footing_on_[footing] = true;
+    begin_course(file_.footings[footing].over_time, time, stage.ramp, "footing", name, key, issues);
+  }
+  for (std::size_t i = 0; i < stage.footing_off.size(); ++i) {
+    const int footing = place_of(file_.footings, "footing", stage.footing_off[i], footing_on_, false,
+                                 item(key, "footing_off", i), issues);
+    if (footing >= 0) footing_on_[footing] = false;
   }
 }
 
@@ -328,9 +374,11 @@ std::vector<std::string> StagePlan::changes() const {
                        : fmt::format("excavates within {} outlines", s.excavate_within.size()));
   tell(s.fill_stress == FillStress::k0 ? "places, under K0 stress," : "places", s.fill);
   tell("loads with", s.load_on), tell("unloads", s.load_off);
+  tell("places footing", s.footing_on), tell("lifts footing", s.footing_off);
   tell("adds boundary", s.support_on), tell("removes boundary", s.support_off);
   tell("sets", s.set);
   if (s.reset_displacements) told.push_back("displacements count from here");
+  if (s.safety) told.push_back("the factor of safety is found at its end");
   return told;
 }
 

@@ -24,6 +24,8 @@ class StagePlan {
   bool is_last() const { return stage_ == stages_.size(); }
   std::string name() const { return stage_ == 0 ? "start" : stages_[stage_ - 1].name; }
   bool resets_displacements() const { return stage_ > 0 && stages_[stage_ - 1].reset_displacements; }
+  /// The table that the present stage is; null before the first.
+  const StageCase* table() const { return stage_ > 0 ? &stages_[stage_ - 1] : nullptr; }
   /// What the stage changes, for people: "removes 'pit'", ...
   std::vector<std::string> changes() const;
 
@@ -48,6 +50,8 @@ class StagePlan {
   void change_soils(const StageCase& stage, const std::string& key, std::vector<CaseIssue>& issues);
   void change_loads(const StageCase& stage, const std::string& key, double time,
                     std::vector<CaseIssue>& issues);
+  void change_footings(const StageCase& stage, const std::string& key, double time,
+                       std::vector<CaseIssue>& issues);
   void change_supports(const StageCase& stage, const std::string& key, std::vector<CaseIssue>& issues);
   std::vector<SoilCase> soils(bool all) const;
   void make_current(double end);
@@ -55,7 +59,7 @@ class StagePlan {
   Case file_;  ///< with the settings that hold now
   std::vector<StageCase> stages_;
   std::vector<Piece> pieces_;
-  std::vector<char> load_on_, support_on_;
+  std::vector<char> load_on_, footing_on_, support_on_;
   std::shared_ptr<const Case> plan_;
   std::size_t stage_ = 0;
   int areas_ = 0;  ///< excavate_within of the stages so far
@@ -64,6 +68,9 @@ class StagePlan {
 
 /// Throws std::runtime_error where a case has stages or starts from another run, which `who` does not follow.
 void require_plain(const Case& scene, std::string_view who);
+
+/// The last stage of a case, as planned; the case itself where there are none.
+Case last_stage(const Case& scene);
 
 /// Time at which the last stage of a case ends if none comes to rest before [s].
 double latest_end(const Case& scene);

@@ -138,6 +138,7 @@ Model build_model(const Case& case_as_drawn) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
+  model.is_pressed = !scene.water.couples() && (!scene.loads.empty() || !scene.footings.empty());
   model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);
   model.usual_cause = usual_cause_of_breakdown(scene);
   return model;

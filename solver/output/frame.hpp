@@ -108,15 +108,31 @@ struct Summary {
   std::map<std::string, Probe> probes;
   std::map<std::string, ErrorNorms>
       errors;  ///< field (EffectiveStress_YY) -> norms, where the case names a reference
+  /// What holds a rigid footing, per metre of thickness.
+  struct Footing {
+    double force = 0, shear = 0;  ///< against it, and along it [N/m]
+    double settlement = 0;        ///< into the soil, since it was placed [m]
+    double width = 0;             ///< of the soil's surface that moves with it [m]
+  };
+  std::map<std::string, Footing> footings;  ///< at the end
+  /// A factor of safety.
+  struct Safety {
+    double stable_at = 0;          ///< largest with which the soil rests; 0: none was found
+    double fails_at = 0;           ///< smallest at which it fails; infinite: none was found
+    double limit_equilibrium = 0;  ///< least of all slip surfaces; 0: none
+    std::string note;              ///< why there is no answer, or what is doubtful about it
+  };
   /// One stage of a case that has them.
   struct Stage {
     std::string name;
-    std::string ended;                         ///< "time", "rest", "failure", "unstable" or "interrupted"
-    double start = 0, time = 0;                ///< when it began and ended [s]
-    std::int64_t steps = 0, particles = 0;     ///< of this stage
-    double unbalanced_force_ratio = 0;         ///< at its end [-]
-    double largest_displacement = 0;           ///< at its end, as displacements count [m]
-    std::map<std::string, Probe> probes = {};  ///< at its end
+    std::string ended;                             ///< "time", "rest", "failure", "unstable" or "interrupted"
+    double start = 0, time = 0;                    ///< when it began and ended [s]
+    std::int64_t steps = 0, particles = 0;         ///< of this stage
+    double unbalanced_force_ratio = 0;             ///< at its end [-]
+    double largest_displacement = 0;               ///< at its end, as displacements count [m]
+    std::map<std::string, Probe> probes = {};      ///< at its end
+    std::map<std::string, Footing> footings = {};  ///< at its end
+    std::optional<Safety> safety = {};             ///< of its last state, where the stage asks for it
   };
   std::vector<Stage> stages;                   ///< that have been computed; empty where the case has none
   std::optional<FemCheck> finite_elements;     ///< what the run is held against by itself

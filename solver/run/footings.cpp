@@ -33,7 +33,7 @@ Footing::Footing(const FootingCase& footing, const Case& scene, const Model& mod
     };
     for (; last < order.size() && in_column(); ++last) area += on.areas[order[last]];
     if (area < some * model.spacing) break;  // the rest of a column that ends at the edge
-    Strip strip{particles_.size(), particles_.size() + last - first, 0};
+    Strip strip{.first = particles_.size(), .last = particles_.size() + last - first, .compliance = 0};
     for (std::size_t k = first; k < last; ++k) {
       const std::int32_t a = on.particles[order[k]];
       particles_.push_back(a), weights_.push_back(on.areas[order[k]] / area);
@@ -52,7 +52,17 @@ Vec2 Footing::mean(const Strip& strip, std::span<const Vec2> values) const {
 }
 
 Vec2 Footing::mean_displacement(const Strip& strip, const Particles& p) const {
-  return mean(strip, p.position) - mean(strip, p.start);
+  return mean(strip, p.position) - mean(strip, p.start) - strip.before;
+}
+
+void Footing::place(const Particles& p, double settlement) {
+  for (Strip& strip : strips_)
+    strip.before = mean(strip, p.position) - mean(strip, p.start) - settlement * into_;
+}
+
+void Footing::visit(StateArchive& state) {
+  for (Strip& strip : strips_)
+    state.value("footing_before", strip.before.x()), state.value("footing_before", strip.before.y());
 }
 
 double Footing::settlement(const Particles& p) const {

@@ -7,6 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
+#include "solver/particles/state.hpp"
 #include "solver/run/leapfrog.hpp"
 
 namespace porosph {
@@ -22,7 +23,7 @@ namespace porosph {
 /// missing.
 class Footing {
  public:
-  /// Throws std::runtime_error where no particle is near the stretch.
+  /// On the ground as drawn. Throws std::runtime_error where no particle is near the stretch.
   Footing(const FootingCase& footing, const Case& scene, const Model& model,
           std::span<const Vec2> surface_vectors);
 
@@ -30,7 +31,9 @@ class Footing {
   /// to where the plate is at the time `then` [s], in balance with its force or at its settlement.
   void hold(const Particles& particles, Kick kick, double dt, double then, std::span<Vec2> accelerations);
 
-  double settlement(const Particles& particles) const;  ///< into the soil, since the start [m]
+  /// Puts it on the ground as the particles lie, where it has settled so far [m] already.
+  void place(const Particles& particles, double settlement);
+  double settlement(const Particles& particles) const;  ///< into the soil, since it was placed [m]
   /// What the soil resists by, per metre of thickness, at the last hold(): the force that keeps the strips
   /// from being accelerated.
   double force() const { return force_; }      ///< against the plate [N/m]
@@ -39,11 +42,13 @@ class Footing {
   const std::string& name() const { return case_.name; }
   double width() const { return width_; }  ///< of the surface that moves with it [m]
   std::span<const std::int32_t> particles() const { return particles_; }
+  void visit(StateArchive& state);  ///< saves or restores where it was placed
 
  private:
   struct Strip {
-    std::size_t first, last;  ///< of particles_
-    double compliance;        ///< sum w^2 / m [1/kg]
+    std::size_t first, last;     ///< of particles_
+    double compliance;           ///< sum w^2 / m [1/kg]
+    Vec2 before = Vec2::Zero();  ///< displacement of the ground when the plate was placed [m]
   };
   Vec2 mean(const Strip& strip, std::span<const Vec2> of_particles) const;
   Vec2 mean_displacement(const Strip& strip, const Particles& particles) const;

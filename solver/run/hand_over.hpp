@@ -1,6 +1,9 @@
 // What a run, or a stage of it, hands on to the next.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
 
@@ -9,8 +12,9 @@ namespace porosph {
 /// The state of the soil at one instant, and the case that it is of.
 struct HandedOver {
   Case scene;
-  Particles particles;           ///< velocities at the present instant
-  Point origin = Point::Zero();  ///< of their positions [m]
+  Particles particles;                             ///< velocities at the present instant
+  Point origin = Point::Zero();                    ///< of their positions [m]
+  std::map<std::string, double> settlements = {};  ///< of the footings, by their names [m]
 };
 
 /// How a simulation begins, where it does not at rest at t = 0.

@@ -57,6 +57,11 @@ class Equilibrium {
   double limit_, needed_ = 0, changes_end_ = 0;
 };
 
+/// Of all stages, there at present or not.
+const std::vector<FootingCase>& all_footings(const Simulation& s) {
+  return s.scene().plan ? s.scene().plan->footings : s.scene().footings;
+}
+
 std::vector<double> history_row(Simulation& s) {
   // For the footings' forces at this instant. Elsewhere the next step asks for them, within the time that
   // counts.
@@ -71,8 +76,13 @@ std::vector<double> history_row(Simulation& s) {
     const std::vector<double> values = probe.read(s.model().particles).values();
     row.insert(row.end(), values.begin(), values.end());
   }
-  for (const Footing& footing : s.footings())
-    row.insert(row.end(), {footing.force(), footing.shear(), footing.settlement(s.model().particles)});
+  for (const FootingCase& footing : all_footings(s)) {
+    const auto there = std::ranges::find(s.footings(), footing.name, &Footing::name);
+    if (there == s.footings().end())
+      row.insert(row.end(), 3, std::nan(""));
+    else
+      row.insert(row.end(), {there->force(), there->shear(), there->settlement(s.model().particles)});
+  }
   return row;
 }
 
@@ -149,9 +159,9 @@ std::vector<std::string> history_columns(const Simulation& simulation) {
   }
   for (const Probe& probe : simulation.probes())
     for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
-  for (const Footing& footing : simulation.footings())
+  for (const FootingCase& footing : all_footings(simulation))
     for (const char* quantity : {"Force", "Shear", "Settlement"})
-      columns.push_back(footing.name() + "." + quantity);
+      columns.push_back(footing.name + "." + quantity);
   return columns;
 }
 

@@ -110,11 +110,17 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   if (beginning.state == nullptr) return;
   take_over(beginning, scene, model_);
   taken_over_ = true;
+  for (Footing& footing : footings_) {
+    const auto there = beginning.state->settlements.find(footing.name());
+    footing.place(model_.particles, there == beginning.state->settlements.end() ? 0 : there->second);
+  }
 }
 
 HandedOver Simulation::hand_over() {
   HandedOver state{scene_, model_.particles, model_.origin};
   state.particles.velocity = velocities();
+  for (const Footing& footing : footings_)
+    state.settlements[footing.name()] = footing.settlement(model_.particles);
   return state;
 }
 
@@ -312,6 +318,7 @@ void Simulation::visit(StateArchive& state) {
   state.value("refreshes", counts_then.refreshes);
   state.value("closures", counts_then.closures);
   visit_particles(state, model_.particles);
+  for (Footing& footing : footings_) footing.visit(state);
   for (std::optional<State>* remembered : {&good_.last, &good_.before}) visit_remembered(state, *remembered);
   state.value("relaxation_stiffness", relaxation_.stiffness);
   state.value("relaxation_inertia", relaxation_.inertia);

@@ -12,8 +12,10 @@
 #include <thread>
 
 #include "solver/boundary/traction.hpp"
+#include "solver/case/safety_obstacle.hpp"
 #include "solver/run/kept_state.hpp"
 #include "solver/run/monitor/energy.hpp"
+#include "solver/soil/law_fields.hpp"
 #include "solver/water/standing_water.hpp"
 
 namespace porosph {
@@ -129,6 +131,11 @@ StrengthTrial advance_to_end(Simulation& simulation, double factor, double at_re
   return t;
 }
 
+struct Rest {
+  double factor = 0;
+  std::shared_ptr<const KeptState> state;
+};
+
 class Search {
  public:
   Search(const Case& scene, const StrengthReductionOptions& options)
@@ -146,15 +153,16 @@ class Search {
  private:
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
-  std::shared_ptr<const KeptState> rest_below(double factor) {
-    const std::scoped_lock lock(mutex_);
-    return rest_.factor < factor ? rest_.state : nullptr;
+  /// As trials find the soil; elastic soil is always as drawn.
+  Beginning beginning() const {
+    return {.state = options_.from, .reset_displacements = options_.from != nullptr};
   }
 
-  /// From the rest with the largest factor below this one, or else from the case's start.
-  FinishedTrial try_factor(double factor) {
-    auto simulation = std::make_unique<Simulation>(factor == 0 ? elastic(trial_) : trial_);
-    if (const auto rest = rest_below(factor)) rest->restore(*simulation);
+  /// From a rest with a smaller factor, or else from the beginning.
+  FinishedTrial try_factor(double factor, const KeptState* rest) {
+    auto simulation = factor == 0 ? std::make_unique<Simulation>(elastic(trial_))
+                                  : std::make_unique<Simulation>(trial_, rest ? Beginning{} : beginning());
+    if (rest) rest->restore(*simulation);
     if (factor > 0) simulation->reduce_strength(factor);
     const StrengthTrial t =
         advance_to_end(*simulation, factor, factor > 0 ? result_.at_rest : never, options_.interrupted);
@@ -164,11 +172,15 @@ class Search {
   /// What elastic soil does: the measure of "far".
   void measure_rest() {
     StrengthTrial t;
-    in_parallel({[&] { t = try_factor(0).trial; }});
+    in_parallel({[&] { t = try_factor(0, nullptr).trial; }});
     if (stopped()) return;
     if (!t.stable())
       throw std::runtime_error("strength reduction: the body does not come to rest even where it is elastic");
     result_.at_rest = t.displacement;
+    if (options_.from == nullptr) return;
+    const Simulation before(trial_, beginning());
+    for (const HistoryField& h : before.model().particles.history)
+      if (h.field.name == law_fields::plastic_strain.name) result_.strain_before = h.values;
   }
 
   std::vector<double> first_factors() const {
@@ -202,9 +214,15 @@ class Search {
     return factors;
   }
 
+  /// All from the rest that there is when the first begins, so that results do not depend on which ends
+  /// first.
   void try_all(const std::vector<double>& factors) {
+    const Rest rest = rest_;
     std::vector<std::function<void()>> work;
-    for (const double factor : factors) work.push_back([this, factor] { keep(try_factor(factor)); });
+    for (const double factor : factors)
+      work.push_back([this, factor, &rest] {
+        keep(try_factor(factor, rest.factor < factor ? rest.state.get() : nullptr));
+      });
     in_parallel(work);
   }
 
@@ -259,10 +277,7 @@ class Search {
   const Case trial_;
   const StrengthReductionOptions& options_;
   StrengthReduction result_;
-  struct {
-    double factor = 0;
-    std::shared_ptr<const KeptState> state;
-  } rest_;  ///< that with the largest factor; none in the beginning
+  Rest rest_;  ///< that with the largest factor; none in the beginning
   std::mutex mutex_, queue_;
 };
 
@@ -278,13 +293,8 @@ Case weakened(const Case& scene, double factor) {
 double longest_rest(const Case& scene) { return static_cast<double>(most_periods) * longest_period(scene); }
 
 StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options) {
-  if (!scene.loading.gravity_applied)
-    throw std::runtime_error("strength reduction: loading.gravity_applied = false: nothing drives the soil");
-  if (std::ranges::none_of(scene.soils, [](const SoilCase& soil) { return soil.law != LawKind::elastic; }))
-    throw std::runtime_error("strength reduction: no soil yields: give one the key 'law' and a strength");
-  if (std::ranges::any_of(scene.footings, [](const FootingCase& f) { return f.settlement < never; }))
-    throw std::runtime_error(
-        "strength reduction: a footing that is driven by its settlement cannot fail: give it a force");
+  if (const std::string obstacle = safety_obstacle(scene); !obstacle.empty())
+    throw std::runtime_error("strength reduction: " + obstacle);
   return Search(scene, options).run();
 }
 

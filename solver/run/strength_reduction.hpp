@@ -35,13 +35,15 @@ struct StrengthReduction {
   double at_rest = 0;                 ///< largest displacement of elastic soil at rest [m]
   std::vector<StrengthTrial> trials;  ///< by their factor
   std::unique_ptr<Simulation> mechanism;  ///< the trial at `fails_at`, as it ended; empty if there is none
+  std::vector<double> strain_before;      ///< plastic strain of its particles before all trials; empty: none
 };
 
 struct StrengthReductionOptions {
-  double bracket = 0.01;           ///< width at which the search ends: fails_at - stable_at
-  double first_guess = 1.3;        ///< where to begin
-  double least = 0.05, most = 50;  ///< factors beyond which no more are tried
-  int jobs = 1;                    ///< trials at a time, each on one core
+  double bracket = 0.01;             ///< width at which the search ends: fails_at - stable_at
+  double first_guess = 1.3;          ///< where to begin
+  double least = 0.05, most = 50;    ///< factors beyond which no more are tried
+  int jobs = 1;                      ///< trials at a time, each on one core
+  const HandedOver* from = nullptr;  ///< state of the body, which trials begin with; null: that at the start
   std::function<void(const StrengthTrial&)> finished = {};  ///< after each, by one thread at a time
   std::function<bool()> interrupted = {};                   ///< true ends the search
 };
@@ -53,10 +55,11 @@ Case weakened(const Case& scene, double factor);
 double longest_rest(const Case& scene);
 
 /// Divides strength by factors from a bracket that gets narrower, each trial from the rest with the largest
-/// factor so far, the first from the unstressed or K0 state at the start. Stable: the unbalanced force ratio
-/// falls below 1e-4 within 40 of the body's longest periods and before displacements exceed 5 times those at
-/// rest (the ratio alone would take a failed slope for stable that has flowed to a new rest). Throws
-/// std::runtime_error where the case cannot be built, has no gravity, or no soil that yields.
+/// factor so far, the first from `from`, or else the unstressed or K0 state at the start. Stable: the
+/// unbalanced force ratio falls below 1e-4 within 40 of the body's longest periods and before displacements
+/// exceed 5 times those at rest (the ratio alone would take a failed slope for stable that has flowed to a
+/// new rest); where trials begin with a state, displacements count from there. Throws std::runtime_error
+/// where the case cannot be built or has no factor (safety_obstacle).
 StrengthReduction reduce_strength(const Case& scene, const StrengthReductionOptions& options);
 
 }  // namespace porosph

@@ -175,8 +175,9 @@ OF_THE_GROUND = [
     ("a footing that settles on coupled water", "[time]",
      FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]")
      + "[water]\nmode = \"undrained\"\nlevel = 2\n[time]"),
-    ("a footing in a case with stages", "[time]", FOOTING + "[[stage]]\nname = \"next\"\nduration = 1\n[time]"),
 ]
+STRENGTH = 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n'
+PLATE = FOOTING.replace("[1, 2]", "[0, 2]").replace("[3, 2]", "[0.9, 2]")
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
 
 
@@ -205,11 +206,23 @@ IN_A_STAGE = [
     ("stress of a fill without one", "[[boundary]]", stage('fill_stress = "k0"')),
     ("a load that is not there", "[[boundary]]", stage('load_off = ["strop"]')),
     ("a load that has gone already", "[[boundary]]", stage('load_off = ["strip", "strip"]')),
+    ("a footing that is not there", "[[boundary]]", stage('footing_off = ["plat"]', FILL + LOAD + PLATE)),
+    ("a footing that is there already", "[[boundary]]",
+     stage('footing_off = ["plate"]\nfooting_on = ["plate", "plate"]', FILL + LOAD + PLATE)),
+    ("a fill on a footing", "[[boundary]]",
+     stage('footing_on = ["plate"]', FILL + LOAD + PLATE)),
+    ("digging under a footing", "[[boundary]]",
+     stage('excavate_within = [[[0, 1], [1, 1], [1, 2], [0, 2]]]', FILL + LOAD + PLATE).replace('load_off = ["strip"]', 'load_off = ["strip"]\nfooting_off = ["plate"]')),
+    ("a factor of safety of a footing that is pushed", "[[boundary]]", STRENGTH + stage(
+        'safety = true', FILL + LOAD + PLATE.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]"))),
+    ("a stage that moves a footing", "[[boundary]]", stage('set = ["footing.plate.from = [0, 2]"]', FILL + LOAD + PLATE)),
     ("a ramp without a load", "[[boundary]]", stage("ramp = 1")),
     ("a boundary that is not there", "[[boundary]]", stage('support_off = ["left"]')),
     ("a setting of a stage with a typing mistake", "[[boundary]]", stage('set = ["water.levle = 1"]')),
     ("a setting of a stage out of range", "[[boundary]]", stage('set = ["soil.sand.poissons_ratio = 0.5"]')),
     ("a setting that holds throughout", "[[boundary]]", stage('set = ["particles.spacing = 0.1"]')),
+    ("a factor of safety of elastic soil", "[[boundary]]", stage("safety = true")),
+    ("a bracket of no factor of safety", "[[boundary]]", STRENGTH + stage("safety_bracket = 0.1")),
     ("a setting that moves soil", "[[boundary]]", stage('set = ["soil.sand.polygon = [[0, 0], [1, 0], [1, 1]]"]')),
     ("stages of consolidation", WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nlevel = 3\n'
      '[[stage]]\nname = "next"\nduration = 1\n'),
@@ -226,6 +239,7 @@ WARNED_OF = [
                                                        "[[0, 2], [4, 2], [4, 2.6], [0, 2.6]]") + "[[boundary]]"),
     ("a lattice that does not fit", "spacing = 0.5", "spacing = 0.7\narrangement = \"lattice\""),
     ("water below all soil", "[time]", "[[water.stretches]]\nx_to = 2\nlevel = -1\n[time]"),
+    ("a footing with few neighbours around its edge", "[[boundary]]", STRENGTH + FOOTING + "[[boundary]]"),
     ("a time step that is too large", "end = 0.1", "end = 0.1\ncourant = 1.2"),
 ]
 # What is wrong, the command, and what is put into files beforehand.
@@ -238,9 +252,12 @@ ON_THE_COMMAND_LINE = [
     ("a start from a folder without a state", "run case.toml --out started --set start_from=nothing", {}),
     ("a start from soil with other particles", "run case.toml --out started --set start_from=run --set particles.spacing=0.4",
      {}),
-    ("a factor of safety of a case with stages", "safety staged.toml", {
-        "staged.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
-        + '[[stage]]\nname = "next"\nduration = 1\n'}),
+    ("a failure of a case with stages", "safety staged.toml --then-run", {
+        "staged.toml": CASE.replace("[[boundary]]", STRENGTH + "[[boundary]]") + '[[stage]]\nname = "next"\nduration = 1\n'}),
+    ("limit equilibrium under a footing", "safety footing.toml --method both", {
+        "footing.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING + "[[boundary]]")}),
+    ("a factor of safety of a footing that is pushed", "safety pushed.toml", {
+        "pushed.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]") + "[[boundary]]")}),
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),
                                                                          "other/history.csv": "time\n"}),
     ("finite elements into that folder", "fem case.toml --out other", {}),

@@ -33,6 +33,22 @@ to = [0, 10]
 end = 1
 )";
 
+/// The slope is dug out of level ground.
+std::string dug(const std::string& keys_of_stage) {
+  std::string text = slope;
+  const std::string outline = "[[0, 0], [32, 0], [12, 10], [0, 10]]";
+  text.replace(text.find(outline), outline.size(), "[[0, 0], [32, 0], [32, 10], [0, 10]]");
+  return text +
+         "courant = 0.6\n[stop]\nunbalanced_force_ratio = 1e-4\n[loading]\ndamping = \"adaptive\"\n"
+         "k0_stress = true\n[[stage]]\nname = \"dig\"\nduration = 9\n"
+         "excavate_within = [[[12, 10], [32, 0], [33, 0], [33, 10]]]\n" +
+         keys_of_stage + "[[stage]]\nname = \"wait\"\nduration = 1\n";
+}
+
+nlohmann::json stages_of(const Workplace& place, const std::string& folder) {
+  return nlohmann::json::parse(text_of(place.folder() / folder / "summary.json"))["stages"];
+}
+
 nlohmann::json answer(const Workplace& place, const std::string& folder) {
   return nlohmann::json::parse(text_of(place.folder() / folder / "safety.json"));
 }
@@ -130,6 +146,80 @@ TEST_CASE("strength reduction alone leaves limit equilibrium out") {
               .status == 0);
   CHECK_FALSE(answer(place, "found").contains("limit_equilibrium"));
   CHECK_FALSE(exists(place, "found/slip_surfaces.csv"));
+}
+
+TEST_CASE("a stage of a run has its factor of safety") {
+  const Workplace place;
+  place.write("dug.toml", dug("safety = true\nsafety_bracket = 0.02\n"));
+  CHECK_THAT(place.porosph("check dug.toml").out, Contains("the factor of safety is found at its end"));
+  const Outcome outcome = place.porosph("run dug.toml --out run");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK_THAT(outcome.out, Contains("factor of safety of stage 'dig'") && Contains("  factor of safety 1.3"));
+  const auto stages = stages_of(place, "run");
+  REQUIRE(stages.size() == 3);
+  CHECK_FALSE(stages[0].contains("safety"));
+  CHECK_FALSE(stages[2].contains("safety"));
+  const auto safety = stages[1]["safety"];
+  const double rests = safety["stable_at"], fails = safety["fails_at"];
+  CHECK(fails - rests < 0.0201);
+  CHECK(rests > 1.3);
+  CHECK(fails < 1.45);
+  CHECK(safety["limit_equilibrium"].get<double>() == Approx(1.376).margin(0.01));
+  for (const char* file : {"safety.json", "safety.csv", "safety.png", "mechanism.png", "index.html"})
+    CHECK(exists(place, std::string("run/safety_dig/") + file));
+  REQUIRE(place.porosph("report run --instants 0 --out page").status == 0);
+  const std::string page = text_of(place.folder() / "page/index.html");
+  CHECK_THAT(page, Contains("Factor of safety: Slope, stage") && Contains("study_1_mechanism.png") &&
+                       Contains("on slip surfaces"));
+  // The same from its last state, which is that of the stage after.
+  const Outcome alone = place.porosph("safety dug.toml --bracket 0.05 --jobs 2 --out alone");
+  INFO(alone.err);
+  REQUIRE(alone.status == 0);
+  CHECK_THAT(alone.out, Contains("stage 'wait' ended at"));
+  const auto found = answer(place, "alone")["strength_reduction"];
+  CHECK(found["stable_at"].get<double>() == Approx(rests).margin(0.05));
+  CHECK(found["fails_at"].get<double>() == Approx(fails).margin(0.05));
+  // From another run's last state.
+  place.write("slope.toml",
+              slope + "[loading]\ndamping = \"adaptive\"\n[stop]\nunbalanced_force_ratio = 1e-4\n");
+  REQUIRE(place.porosph("run slope.toml --quiet --out ground").status == 0);
+  const Outcome from =
+      place.porosph("safety slope.toml --set start_from=ground --bracket 0.2 --quiet --out from");
+  INFO(from.err);
+  CHECK(from.status == 0);
+  // Started again, the run leaves nothing of the last one.
+  REQUIRE(place.porosph("run dug.toml --out run --force --quiet --set stage.dig.safety_bracket=0.2").status ==
+          0);
+  CHECK(stages_of(place, "run")[1]["safety"]["fails_at"].get<double>() > fails);
+}
+
+TEST_CASE("a run resumes before and after a factor of safety to the same numbers") {
+  const Workplace place;
+  place.write("dug.toml", dug("safety = true\nsafety_bracket = 0.01\n"));
+  const std::string run = "run dug.toml --threads 1 --checkpoint-every 1e-6";
+  REQUIRE(place.porosph(run + " --quiet --out whole").status == 0);
+  // Interrupted while trials run, and again until it is done.
+  const std::string begin = "'" POROSPH_PROGRAM "' " + run + " --out parts --resume >log & ",
+                    wait = " log && kill -0 $!; do sleep 0.002; done; ";
+  CHECK(place.shell(begin + "while ! grep -q strength" + wait + "kill -INT $!; wait $!") == 130);
+  CHECK_FALSE(exists(place, "parts/safety_dig/safety.json"));
+  CHECK(stages_of(place, "parts").size() == 1);
+  CHECK(place.shell(begin + "while ! grep -q \"stage 'wait'\"" + wait + "kill -KILL $!; wait $!") != 2);
+  REQUIRE(place.porosph(run + " --quiet --out parts --resume").status == 0);
+  CHECK(stages_of(place, "parts") == stages_of(place, "whole"));
+  CHECK(text_of(place.folder() / "parts/safety_dig/safety.csv") ==
+        text_of(place.folder() / "whole/safety_dig/safety.csv"));
+  CHECK(text_of(place.folder() / "parts/history.csv") == text_of(place.folder() / "whole/history.csv"));
+}
+
+TEST_CASE("a stage that cannot have a factor of safety says why") {
+  const Workplace place;
+  // At rest in its own stage by strength that the next one takes away.
+  place.write("dug.toml", dug("set = [\"soil.loam.cohesion = 1e3\", \"soil.loam.friction_angle = 5\"]\n"));
+  const Outcome fails = place.porosph("safety dug.toml --quiet --set stop.displacement=0.5 --out found");
+  CHECK(fails.status != 0);
+  CHECK_THAT(fails.err, Contains("stage 'dig' fails with the soil's full strength"));
 }
 
 TEST_CASE("a slope whose factor is known is let fail") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,15 @@ std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer) {
   return surfaces;
 }
 
+namespace {
+
+/// The surface with the least factor; there is one where limit equilibrium has an answer.
+NamedSurface least(const SafetyAnswer& answer) {
+  return std::ranges::min(slip_surfaces(answer), {}, [](const NamedSurface& s) { return s.surface.factor; });
+}
+
+}  // namespace
+
 std::string_view words_of(TrialEnd end) {
   switch (end) {
     case TrialEnd::at_rest:
@@ -76,10 +86,26 @@ std::string_view words_of(TrialEnd end) {
   return "";
 }
 
-std::string bracket_text(const StrengthReduction& found) {
-  if (found.fails_at == never) return fmt::format("above {:.4g}", found.stable_at);
-  if (found.stable_at == 0) return fmt::format("below {:.4g}", found.fails_at);
-  return fmt::format("{:.4g} to {:.4g}", found.stable_at, found.fails_at);
+std::string bracket_text(double stable_at, double fails_at) {
+  if (fails_at == never) return fmt::format("above {:.4g}", stable_at);
+  if (stable_at == 0) return fmt::format("below {:.4g}", fails_at);
+  return fmt::format("{:.4g} to {:.4g}", stable_at, fails_at);
+}
+
+Summary::Safety in_short(const SafetyAnswer& answer) {
+  Summary::Safety safety;
+  if (answer.particles)
+    safety.stable_at = answer.particles->stable_at, safety.fails_at = answer.particles->fails_at;
+  if (answer.limit_equilibrium) safety.limit_equilibrium = least(answer).surface.factor;
+  for (const std::string& warning : answer.warnings)
+    safety.note += (safety.note.empty() ? "" : "; ") + warning;
+  return safety;
+}
+
+std::string safety_folder(const std::string& stage) {
+  const bool plain = std::ranges::all_of(
+      stage, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+  return plain && !stage.empty() ? "safety_" + stage : "";
 }
 
 void write_trials(const std::filesystem::path& file, const StrengthReduction& found) {
@@ -100,10 +126,8 @@ void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& 
 std::string disagreement(const SafetyAnswer& answer) {
   constexpr double tolerable = 0.05;
   if (!answer.particles || !answer.limit_equilibrium) return "";
-  const std::vector<NamedSurface> surfaces = slip_surfaces(answer);
-  const NamedSurface& least =
-      *std::ranges::min_element(surfaces, {}, [](const NamedSurface& s) { return s.surface.factor; });
-  const double factor = least.surface.factor, stable = answer.particles->stable_at,
+  const NamedSurface surface = least(answer);
+  const double factor = surface.surface.factor, stable = answer.particles->stable_at,
                fails = answer.particles->fails_at;
   if (stable > (1 + tolerable) * factor)
     return fmt::format(
@@ -111,12 +135,12 @@ std::string disagreement(const SafetyAnswer& answer) {
         "of "
         "few rows of particles hardly slides in them. Take the smaller factor, or a particles.spacing that "
         "gives weak layers two rows or more",
-        stable, 100 * (stable / factor - 1), factor, least.name);
+        stable, 100 * (stable / factor - 1), factor, surface.name);
   if (fails < (1 - tolerable) * factor)
     return fmt::format(
         "the particles fail at {:.4g}, {:.0f} % below the {:.4g} of limit equilibrium ({}): look at "
         "mechanism.png for how they fail, and take the smaller factor",
-        fails, 100 * (1 - fails / factor), factor, least.name);
+        fails, 100 * (1 - fails / factor), factor, surface.name);
   return "";
 }
 

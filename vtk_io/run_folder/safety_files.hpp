@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/output/frame.hpp"
 #include "solver/reference/limit_equilibrium/search.hpp"
 #include "solver/run/strength_reduction.hpp"
 
@@ -31,7 +32,17 @@ std::vector<NamedSurface> slip_surfaces(const SafetyAnswer& answer);
 std::string_view words_of(TrialEnd end);
 
 /// "1.204 to 1.212", "above 50".
-std::string bracket_text(const StrengthReduction& found);
+std::string bracket_text(double stable_at, double fails_at);
+inline std::string bracket_text(const StrengthReduction& found) {
+  return bracket_text(found.stable_at, found.fails_at);
+}
+
+/// What a run's summary says of it.
+Summary::Safety in_short(const SafetyAnswer& answer);
+
+/// Where a run keeps the files of a stage's factor of safety, in its folder; nothing for a name that is not
+/// that of a stage.
+std::string safety_folder(const std::string& stage);
 
 /// Says so where the two methods are more than 5 % apart; empty where they agree, or one is missing.
 std::string disagreement(const SafetyAnswer& answer);

@@ -76,11 +76,26 @@ Json to_json(const ErrorNorms& norms) {
   return object;
 }
 
+Json to_json(const Summary::Footing& footing) {
+  Json json;
+  put(json, "force", footing.force), put(json, "shear", footing.shear);
+  put(json, "settlement", footing.settlement), put(json, "width", footing.width);
+  return json;
+}
+
 template <typename Value>
 Json object_of(const std::map<std::string, Value>& entries) {
   Json object = Json::object();
   for (const auto& [name, value] : entries) object[name] = to_json(value);
   return object;
+}
+
+Json to_json(const Summary::Safety& safety) {
+  Json json;
+  put(json, "stable_at", safety.stable_at), put(json, "fails_at", safety.fails_at);
+  if (safety.limit_equilibrium > 0) put(json, "limit_equilibrium", safety.limit_equilibrium);
+  if (!safety.note.empty()) json["note"] = safety.note;
+  return json;
 }
 
 Json to_json(const Summary::Stage& stage) {
@@ -91,6 +106,8 @@ Json to_json(const Summary::Stage& stage) {
   put(json, "unbalanced_force_ratio", stage.unbalanced_force_ratio);
   put(json, "largest_displacement", stage.largest_displacement);
   json["probes"] = object_of(stage.probes);
+  if (!stage.footings.empty()) json["footings"] = object_of(stage.footings);
+  if (stage.safety) json["safety"] = to_json(*stage.safety);
   return json;
 }
 
@@ -154,6 +171,7 @@ Json to_json(const Summary& summary) {
     put(object, "imbalance", c.imbalance);
   }
   json["probes"] = object_of(summary.probes);
+  if (!summary.footings.empty()) json["footings"] = object_of(summary.footings);
   for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -309,6 +327,27 @@ std::map<std::string, Summary::Probe> probes_from(const Object& json) {
   return probes;
 }
 
+std::map<std::string, Summary::Footing> footings_from(const Object& json) {
+  std::map<std::string, Summary::Footing> footings;
+  if (!json.has("footings")) return footings;
+  const Object all = json.object("footings");
+  for (const auto& name : all.keys()) {
+    const Object f = all.object(name);
+    footings[name] = {.force = f.number("force"),
+                      .shear = f.number("shear"),
+                      .settlement = f.number("settlement"),
+                      .width = f.number("width")};
+  }
+  return footings;
+}
+
+Summary::Safety safety_from(const Object& json) {
+  return {.stable_at = json.number("stable_at"),
+          .fails_at = json.number("fails_at"),
+          .limit_equilibrium = json.has("limit_equilibrium") ? json.number("limit_equilibrium") : 0,
+          .note = json.has("note") ? json.text("note") : ""};
+}
+
 Summary::Stage stage_from(const Object& json) {
   return {.name = json.text("name"),
           .ended = json.text("ended"),
@@ -318,7 +357,9 @@ Summary::Stage stage_from(const Object& json) {
           .particles = json.integer<std::int64_t>("particles"),
           .unbalanced_force_ratio = json.number("unbalanced_force_ratio"),
           .largest_displacement = json.number("largest_displacement"),
-          .probes = probes_from(json.object("probes"))};
+          .probes = probes_from(json.object("probes")),
+          .footings = footings_from(json),
+          .safety = json.has("safety") ? std::optional(safety_from(json.object("safety"))) : std::nullopt};
 }
 
 Summary summary_from(const Object& json) {
@@ -341,6 +382,7 @@ Summary summary_from(const Object& json) {
   summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");
   summary.energy_growth = json.number("energy_growth");
   summary.probes = probes_from(json.object("probes"));
+  summary.footings = footings_from(json);
   if (json.has("stages"))
     for (const Object& stage : json.objects("stages")) summary.stages.push_back(stage_from(stage));
   if (json.has("errors")) {

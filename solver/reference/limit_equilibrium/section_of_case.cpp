@@ -16,6 +16,7 @@ std::optional<SoilStrength> strength_of(const SoilCase& soil) {
     case LawKind::elastic:
       return std::nullopt;
     case LawKind::tresca: {
+      if (s.growth == 0) return SoilStrength{s.undrained_strength};
       double top = -never;
       for (const Point& p : soil.polygon) top = std::max(top, p.y());
       return SoilStrength{s.undrained_strength, 0, s.growth, s.level == never ? top : s.level};

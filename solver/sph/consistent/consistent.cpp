@@ -65,9 +65,9 @@ void ConsistentDynamics::rebuild_reference() {
   FormulationCase formulation = formulation_;
   if (surroundings_.bodies_are_apart() && formulation.zero_energy_stiffness < 0)
     formulation.zero_energy_stiffness = against_impact;
-  if (flow_.has_flowed()) {  // gradients are closed, and zigzag held, in the arrangement at the start
+  if (flow_.has_flowed()) {  // gradients are closed, and zigzag held but under loads, at the start alone
     formulation.closed_gradients = false;
-    if (formulation.zero_energy_stiffness < 0) formulation.zero_energy_stiffness = 0;
+    if (formulation.zero_energy_stiffness < 0 && !model_.is_pressed) formulation.zero_energy_stiffness = 0;
   }
   reference_ = make_reference(model_, formulation, surroundings_.find(model_));
   counts.searches = surroundings_.searches();

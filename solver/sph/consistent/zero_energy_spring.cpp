@@ -7,8 +7,8 @@
 namespace porosph {
 namespace {
 
-/// s, by default where something sets off motion that alternates: soils that meet, cut cells, and more of it
-/// disorder and walls at corners other than upright ones with the soil between them.
+/// s, by default where something sets off motion that alternates: soils that meet, cut cells, the ends of
+/// loads, and more of it disorder and walls at corners other than upright ones with the soil between them.
 double strength(const FormulationCase& formulation, const Model& model, bool cut,
                 const ReferenceConfiguration& r, const OwnSides& sides) {
   constexpr double little = 0.1, usual = 0.2, more = 0.6;  // docs/theory.md says what they do
@@ -16,7 +16,7 @@ double strength(const FormulationCase& formulation, const Model& model, bool cut
   const bool elastic = std::ranges::none_of(model.soils, &Soil::may_yield);
   if (r.closed() || !model.visibility.everywhere()) return elastic ? more : little;
   if (!sides.empty()) return elastic ? usual : little;
-  return cut ? little : 0;
+  return cut || model.is_pressed ? little : 0;
 }
 
 }  // namespace

@@ -129,6 +129,29 @@ TEST_CASE("the comparison with finite elements comes back as it was") {
   CHECK(read_again(folder, summary).finite_elements->skipped == "the water moves");
 }
 
+TEST_CASE("factors of safety of stages come back as they were") {
+  const TemporaryFolder folder;
+  Summary summary = example();
+  const Summary::Stage stage{
+      .name = "dig", .ended = "rest", .start = 0, .time = 1, .steps = 2, .particles = 3};
+  summary.stages = {3, stage};
+  summary.stages[1].safety = {
+      .stable_at = 1.25, .fails_at = 1.5, .limit_equilibrium = 1.375, .note = "far apart"};
+  summary.stages[2].safety = {.stable_at = 50, .fails_at = infinity, .limit_equilibrium = 0, .note = ""};
+  const auto stages = written(folder, summary)["stages"];
+  CHECK_FALSE(stages[0].contains("safety"));
+  CHECK_FALSE(stages[2]["safety"].contains("limit_equilibrium"));
+  const Summary again = read_again(folder, summary);
+  CHECK_FALSE(again.stages[0].safety);
+  REQUIRE(again.stages[1].safety);
+  CHECK(again.stages[1].safety->stable_at == 1.25);
+  CHECK(again.stages[1].safety->fails_at == 1.5);
+  CHECK(again.stages[1].safety->limit_equilibrium == 1.375);
+  CHECK(again.stages[1].safety->note == "far apart");
+  CHECK(again.stages[2].safety->fails_at == infinity);
+  CHECK(again.stages[2].safety->limit_equilibrium == 0);
+}
+
 TEST_CASE("every status has its name") {
   const TemporaryFolder folder;
   const std::vector<std::pair<RunStatus, std::string>> names{{RunStatus::completed, "completed"},

@@ -32,7 +32,7 @@ std::string stage_text(const std::string& keys) {
 }
 
 /// Brings the fill, which is absent before.
-const std::string last_stage =
+const std::string later_stage =
     "[[stage]]\nname = 'filled'\nduration = 1\nfill = ['fill']\nload_off = ['strip']\n";
 
 }  // namespace
@@ -58,7 +58,7 @@ TEST_CASE("stages that cannot be") {
        "key 'stage[0].load_off[0]' = \"strop\": no load is called so: there are 'strip'"},
       {"load_off = ['strip', 'strip']\n",
        "key 'stage[0].load_off[1]' = \"strip\": this load does not act in this stage"},
-      {"ramp = 1\n", "key 'stage[0].ramp' = 1: is used only with load_on or load_off"},
+      {"ramp = 1\n", "key 'stage[0].ramp' = 1: is used only with load_on, load_off or footing_on"},
       {"fill_stress = 'k0'\n", "key 'stage[0].fill_stress' = \"k0\": is used only with fill"},
       {"fill = ['fill']\n", "key 'stage[0]': in stage 'next' load[0]: lies between two soils"},
       {"support_off = ['right']\n",
@@ -72,20 +72,20 @@ TEST_CASE("stages that cannot be") {
       {"set = ['soil.sand.polygon = [[0,0],[1,0],[1,1]]']\n",
        "a stage cannot move or rename a soil: see excavate and fill"},
       {"set = ['particles.spacing = 1']\n",
-       "a stage may set keys of soil, water, loading, load, formulation and stop, and time.courant"},
+       "a stage may set keys of soil, water, loading, load, footing, formulation and stop, and time.courant"},
       {"set = ['soil.sand.law = \"tresca\"']\n", "undrained_strength"},
       {"duration2 = 1\n", "key 'stage[0].duration2': is not known; did you mean 'duration'?"},
   }));
   CAPTURE(wrong.keys);
-  CHECK_THAT(errors_with(things + stage_text(wrong.keys) + last_stage),
+  CHECK_THAT(errors_with(things + stage_text(wrong.keys) + later_stage),
              Contains(wrong.error) && Contains("box.toml:"));
 }
 
 TEST_CASE("stages name what is there") {
   CHECK(errors_with(things + stage_text("load_off = ['strip']\nfill = ['fill']\n")) == "");
   CHECK(errors_with(things + stage_text("set = ['water.level = 3', 'loading.damping = \"adaptive\"']\n") +
-                    last_stage) == "");
-  CHECK_THAT(errors_with(things + stage_text("") + stage_text("") + last_stage),
+                    later_stage) == "");
+  CHECK_THAT(errors_with(things + stage_text("") + stage_text("") + later_stage),
              Contains("key 'stage[1].name' = \"next\": is the name of stage[0] too"));
   CHECK_THAT(errors_with("[[stage]]\nname = 'start'\nduration = 1\n"),
              Contains("is what the part of the run before the first stage is called"));

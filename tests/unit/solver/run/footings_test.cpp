@@ -7,8 +7,11 @@
 
 #include "solver/case/case_file.hpp"
 #include "solver/case/check_case.hpp"
-#include "solver/run/run.hpp"
+#include "solver/case/check_stages.hpp"
+#include "solver/case/known_limits.hpp"
+#include "solver/run/kept_state.hpp"
 #include "tests/box_of_soil.hpp"
+#include "tests/staged.hpp"
 
 using namespace porosph;
 
@@ -102,13 +105,103 @@ TEST_CASE("a rough plate holds the soil along it, a smooth one lets it slide", "
 }
 
 TEST_CASE("a rough footing on clay bears what Prandtl says", "[footing]") {
-  Simulation s(prandtl(0.1));
+  Case scene = prandtl(0.1);
+  scene.particles.arrangement = GENERATE(Arrangement::lattice, Arrangement::surface);
+  scene.particles.smoothing_ratio = GENERATE(1.15, 1.2, 1.4);
+  CAPTURE(static_cast<int>(scene.particles.arrangement), scene.particles.smoothing_ratio);
+  Simulation s(scene);
   while (s.time() < 4) s.advance();
   settle(s, 1e-4);
   CHECK(s.step() < s.last_step());
   const double factor = s.footings()[0].force() / 10e3;  // of half the footing, 1 m wide
   CAPTURE(factor);
   CHECK(factor == Approx(2 + std::numbers::pi).epsilon(0.02));
+}
+
+TEST_CASE("a footing with too few or too many neighbours around its edge is warned of", "[footing]") {
+  Case scene = prandtl(0.1);
+  const auto warned = [&](double ratio) {
+    scene.particles.smoothing_ratio = ratio;
+    return !known_failures(scene).empty();
+  };
+  CHECK(warned(1));
+  CHECK(warned(1.1));
+  CHECK_FALSE(warned(1.2));
+  CHECK(warned(1.5));
+  scene.soils[0].law = LawKind::elastic;
+  CHECK_FALSE(warned(1));
+}
+
+TEST_CASE("a footing is placed, loaded and lifted in stages", "[footing]") {
+  const auto arrangement = GENERATE(Arrangement::lattice, Arrangement::surface);
+  CAPTURE(static_cast<int>(arrangement));
+  Case scene = column(arrangement);
+  const SoilCase& soil = scene.soils[0];
+  const double modulus =
+      Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
+  // Under its own weight first; the column is 5 m high, the plate on all of its top.
+  scene.loading.gravity_applied = true;
+  scene.stop.unbalanced_force_ratio = 1e-6;
+  FootingCase& plate = scene.footings[0];
+  plate.rough = false, plate.force = 3e3;
+  StageCase place, wait, push, lift;
+  place.name = "place", place.duration = 10, place.footing_on = {"plate"}, place.ramp = 0.2;
+  wait.name = "wait", wait.duration = 10, wait.reset_displacements = true;
+  push.name = "push", push.duration = 10, push.set = {"footing.plate.force = 6e3"};
+  lift.name = "lift", lift.duration = 10, lift.footing_off = {"plate"};
+  scene.stages = {place, wait, push, lift};
+  REQUIRE(check_stages(scene).empty());
+  const double settles = 1e3 * 5 / modulus;  // under 3 kN/m
+  double height = 0;                         // of the highest particles
+  std::vector<double> tops;
+  run_stages(scene, [&](const EndedStage& ended, Simulation& s) {
+    CAPTURE(ended.name);
+    CHECK(ended.outcome.status == RunStatus::equilibrium);
+    const Particles& p = s.model().particles;
+    std::size_t top = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (p.start[i].y() > p.start[top].y()) top = i;
+    tops.push_back(p.position[top].y() - p.start[top].y());
+    height = p.start[top].y();
+    if (ended.name == "start" || ended.name == "lift") {
+      CHECK(s.footings().empty());
+      return;
+    }
+    REQUIRE(s.footings().size() == 1);
+    s.accelerations();
+    const double times = ended.name == "push" ? 2 : 1;
+    CHECK(s.footings()[0].force() == Approx(3e3 * times).epsilon(2e-3));
+    // From when it was placed, on ground that had settled, through all stages.
+    CHECK(s.footings()[0].settlement(p) == Approx(settles * times).epsilon(0.01));
+  });
+  REQUIRE(tops.size() == 5);
+  CHECK(tops[1] - tops[0] == Approx(-settles * height / 5).epsilon(0.02));
+  CHECK(tops[4] == Approx(tops[0]).epsilon(0.02));
+}
+
+TEST_CASE("a state with a footing is kept and goes on to the same bits", "[footing]") {
+  Case scene = column(Arrangement::surface);
+  scene.loading.gravity_applied = true, scene.stop.unbalanced_force_ratio = 1e-4;
+  scene.footings[0].force = 3e3;
+  StageCase place;
+  place.name = "place", place.duration = 10, place.footing_on = {"plate"};
+  scene.stages = {place};
+  StagePlan plan(scene);
+  Simulation start(plan.scene());
+  run(start, {});
+  const HandedOver state = start.hand_over();
+  REQUIRE(plan.go_on(start.time()).empty());
+  const Beginning beginning{.time = start.time(), .state = &state};
+  Simulation first(plan.scene(), beginning);
+  for (int k = 0; k < 30; ++k) first.advance();
+  const KeptState kept(first);
+  for (int k = 0; k < 30; ++k) first.advance();
+  Simulation second(plan.scene(), {.time = start.time()});
+  kept.restore(second);
+  for (int k = 0; k < 30; ++k) second.advance();
+  CHECK(second.model().particles.position == first.model().particles.position);
+  CHECK(second.footings()[0].settlement(second.model().particles) ==
+        first.footings()[0].settlement(first.model().particles));
 }
 
 TEST_CASE("a footing that cannot be is refused", "[footing]") {

@@ -7,6 +7,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/run/kept_state.hpp"
 #include "tests/box_of_soil.hpp"
+#include "tests/staged.hpp"
 
 using namespace porosph;
 
@@ -27,6 +28,22 @@ Case slope(double spacing) {
   add_wall(scene, BoundaryKind::fixed, {0, 0}, {32, 0});
   add_wall(scene, BoundaryKind::roller, {0, 0}, {0, 10});
   scene.formulation = default_formulation(Motion::consistent);
+  return scene;
+}
+
+/// The same slope, dug out of level ground.
+Case dug_slope(double spacing) {
+  Case scene = slope(spacing);
+  scene.soils[0].polygon = {{0, 0}, {32, 0}, {32, 10}, {0, 10}};
+  scene.boundaries[1].to.y() = 12;
+  add_wall(scene, BoundaryKind::roller, {32, 0}, {32, 12});
+  scene.loading.k0_stress = scene.loading.adaptive_damping = true;
+  scene.time.courant = 0.6, scene.time.end = 5;
+  scene.stop.unbalanced_force_ratio = 1e-4;
+  StageCase dig;
+  dig.name = "dig", dig.duration = 20, dig.safety = true;
+  dig.excavate_within = {{{12, 10}, {32, 0}, {33, 0}, {33, 10}}};
+  scene.stages.push_back(dig);
   return scene;
 }
 
@@ -81,6 +98,27 @@ TEST_CASE("a factor below one is found, and none where the soil cannot fail", "[
   CHECK_FALSE(none.mechanism);
 }
 
+TEST_CASE("a slope that was dug has the factor of one that always was there", "[safety]") {
+  const Case scene = dug_slope(1);
+  const auto last = run_stages(scene);
+  const HandedOver state = last->hand_over();
+  const StrengthReduction at_once = reduce_strength(slope(1), {.bracket = 0.02, .jobs = 2});
+  const StrengthReduction dug =
+      reduce_strength(last_stage(scene), {.bracket = 0.02, .jobs = 2, .from = &state});
+  CHECK(dug.stable_at == Approx(at_once.stable_at).margin(0.021));
+  CHECK(dug.fails_at == Approx(at_once.fails_at).margin(0.021));
+  REQUIRE(dug.mechanism);
+  REQUIRE(dug.strain_before.size() == dug.mechanism->model().particles.size());
+  double most_before = 0;
+  for (const double strain : dug.strain_before) most_before = std::max(most_before, strain);
+  CHECK(most_before > 0);  // the toe yields while it is dug
+  // Displacements count from the state: far from failure the soil hardly moves on.
+  const StrengthReduction same =
+      reduce_strength(last_stage(scene), {.bracket = 1, .first_guess = 1, .from = &state});
+  REQUIRE(same.trials.front().factor == Approx(0.97));
+  CHECK(same.trials.front().displacement < 0.1 * same.at_rest);
+}
+
 TEST_CASE("a simulation goes on from a kept state to the same bits", "[safety]") {
   Case scene = slope(1);
   scene.time.end = 1, scene.formulation.refresh_strain = never;
@@ -101,7 +139,7 @@ TEST_CASE("a simulation goes on from a kept state to the same bits", "[safety]")
 TEST_CASE("strength reduction says what it cannot do", "[safety]") {
   Case elastic = slope(1);
   elastic.soils[0].law = LawKind::elastic;
-  CHECK_THROWS_WITH(reduce_strength(elastic, {}), Catch::Contains("no soil yields"));
+  CHECK_THROWS_WITH(reduce_strength(elastic, {}), Catch::Contains("no soil of the case has a strength"));
   Case pushed = slope(1);
   pushed.footings.push_back(
       {.name = "plate", .from = {2, 10}, .to = {6, 10}, .settlement = 0.1, .over_time = {}});

@@ -63,22 +63,23 @@ TEST_CASE("particles under a strip load have the stress of finite elements", "[l
   while (s.step() < s.last_step() && (s.step() % 20 != 0 || s.unbalanced_force_ratio() > 1e-5)) s.advance();
   CHECK(s.step() < s.last_step());
   const Particles& p = s.model().particles;
-  double errors = 0, sum = 0, far = 0;
+  double errors = 0, sum = 0, near = 0, far = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double from_edge = (p.start[i] - Vec2(2, 0)).norm() / scene.particles.spacing;
-    const double exact = fem.at(p.start[i]).effective_stress[1];
-    if (from_edge < 2.001) continue;
-    errors += std::pow(p.stress[i].yy - exact, 2), sum += exact * exact;
-    if (from_edge > 8) far = std::max(far, std::abs(p.stress[i].yy - exact));
+    const double exact = fem.at(p.start[i]).effective_stress[1], off = std::abs(p.stress[i].yy - exact);
+    if (from_edge < 2.1) continue;
+    errors += off * off, sum += exact * exact, near = std::max(near, off);
+    if (from_edge > 8) far = std::max(far, off);
   }
-  // Stress alternates from row to row around the edge, where the load jumps; it is 0.3 % of q on the axis.
-  CAPTURE(std::sqrt(errors / sum), far / q);
-  CHECK(std::sqrt(errors / sum) < 0.035);
-  CHECK(far < 0.03 * q);
+  // Motion alternates at the edge, where the load jumps. The spring against it is felt at the surface.
+  CAPTURE(std::sqrt(errors / sum), near / q, far / q);
+  CHECK(std::sqrt(errors / sum) < 0.014);
+  CHECK(near < 0.03 * q);
+  CHECK(far < 0.005 * q);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.start[i].x() < scene.particles.spacing) {
       const FemPoint exact = fem.at(p.start[i]);
-      CHECK(p.stress[i].yy == Approx(exact.effective_stress[1]).margin(0.005 * q));
+      CHECK(p.stress[i].yy == Approx(exact.effective_stress[1]).margin(0.009 * q));
       CHECK(p.displacement(i).y() == Approx(exact.displacement.y()).margin(0.00002));
     }
 }

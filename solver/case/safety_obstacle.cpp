@@ -1,0 +1,37 @@
+#include "solver/case/safety_obstacle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solver/case/case_file.hpp"
+
+namespace porosph {
+
+std::string safety_obstacle(const Case& scene) {
+  if (scene.water.couples())
+    return fmt::format(
+        "water.mode = \"{}\" is not possible: the factor of safety is that of soil at rest in still or "
+        "steady water; give undrained clay the law \"tresca\" in still water",
+        name(scene.water.mode));
+  if (!scene.loading.gravity_applied)
+    return "loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety";
+  if (std::ranges::all_of(scene.soils, [](const SoilCase& soil) { return soil.law == LawKind::elastic; }))
+    return "no soil of the case has a strength: give one soil[].law = \"mohr_coulomb\", \"drucker_prager\" "
+           "or \"tresca\"";
+  for (const FootingCase& footing : scene.footings)
+    if (footing.settlement < never)
+      return fmt::format("footing '{}' is driven by its settlement and cannot fail: give it a force",
+                         footing.name);
+  return "";
+}
+
+std::string limit_equilibrium_obstacle(const Case& scene) {
+  if (scene.water.flows())
+    return fmt::format("is for still water, but water.mode is \"{}\"", name(scene.water.mode));
+  if (scene.loading.horizontal != 0) return "knows no horizontal acceleration (loading.horizontal)";
+  if (!scene.footings.empty()) return "knows no footing ([[footing]])";
+  return "";
+}
+
+}  // namespace porosph
