@@ -25,12 +25,15 @@ std::string percent(double fraction) {
 
 std::string seconds(double t) { return fmt::format("{:.2g} s", t); }
 
-std::string legend_text(StabilityClass c, const SweepLimits& limits) {
+std::string legend_text(StabilityClass c, const Sweep& sweep) {
+  const SweepLimits& limits = sweep.limits;
+  const bool of_energy = sweep.reference == SweepReference::energy;
   switch (c) {
     case StabilityClass::accurate:
+      if (of_energy) return fmt::format("numerics took up to {:.2g} %", 100 * limits.accurate);
       return fmt::format("accurate: error up to {:.2g} %", 100 * limits.accurate);
     case StabilityClass::inaccurate:
-      return "inaccurate: at rest at another stress";
+      return of_energy ? "numerics took more" : "inaccurate: at rest at another stress";
     case StabilityClass::not_settled:
       return fmt::format("not settled: forces above {:g} of weight", limits.settled);
     case StabilityClass::unstable:
@@ -136,8 +139,8 @@ void save_stability_map(const SweptMap& map, const std::filesystem::path& png) {
                       .notes = map.sweep.notes,
                       .mark_label = ""};
   for (int c = 0; c < stability_classes; ++c)
-    picture.categories.push_back({legend_text(static_cast<StabilityClass>(c), map.sweep.limits),
-                                  colours[static_cast<std::size_t>(c)]});
+    picture.categories.push_back(
+        {legend_text(static_cast<StabilityClass>(c), map.sweep), colours[static_cast<std::size_t>(c)]});
   for (const auto& verdict : map.verdicts) picture.cells.push_back(cell_of(verdict));
   for (const auto* usual : {&map.usual_x, &map.usual_y})
     if (std::find(usual->begin(), usual->end(), true) != usual->end())
