@@ -152,8 +152,9 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
   summary.stepping_seconds = outcome.stepping_seconds;
   summary.particle_steps_per_second = static_cast<double>(particle_steps) / outcome.stepping_seconds;
   summary.peak_memory_bytes = peak_memory();
+  const bool balances = s.showable() && !s.scene().water.transient.rigid;
   summary.unbalanced_force_ratio =
-      s.showable() ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
+      balances ? s.unbalanced_force_ratio() : std::numeric_limits<double>::quiet_NaN();
   summary.energy_growth = outcome.energy_growth;
   summary.energy = outcome.energy;
   if (s.showable()) {

@@ -51,7 +51,7 @@ ContourPanel difference_panel(const Side& side, const std::vector<Point>& at, st
   if (style != FieldStyle::particles) add_smooth_field(panel, scene, at, at, at);
   if (scene == nullptr) return panel;
   panel.particles.cells = drawn_cells(*scene, at);
-  panel.scenery = scenery_of(*scene);
+  panel.scenery = scenery_at(*scene, side.frame.time);
   return panel;
 }
 

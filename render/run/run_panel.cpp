@@ -81,6 +81,8 @@ Scenery scenery_of(const Case& scene) {
   return scenery;
 }
 
+Scenery scenery_at(const Case& scene, double time) { return scenery_of(scene_at(scene, time)); }
+
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame) {
   if (run.scene) return {overlap * run.scene->particles.spacing};
   if (!has(frame, "Mass") || !has(frame, "Density")) return {usual_distance(positions_of(frame))};

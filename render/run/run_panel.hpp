@@ -9,6 +9,8 @@ namespace porosph {
 
 /// Outlines, water, supports and probes of the case.
 Scenery scenery_of(const Case& scene);
+/// The same with the water as it stands at that time [s].
+Scenery scenery_at(const Case& scene, double time);
 
 /// A panel without titles. `values`: one per particle, as they are shown. `deformation`: 1 draws the
 /// particles where they are, 0 where they were at the start, other values exaggerate (needs Displacement in

@@ -9,7 +9,6 @@
 #include "render/run/run_panel.hpp"
 #include "solver/model/model.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/water/standing_water.hpp"
 
 namespace porosph {
 namespace {
@@ -20,9 +19,7 @@ constexpr std::array<Colour, 3> surface_colours{Colour{215, 48, 39}, Colour{20, 
 std::string label_of(const NamedSurface& s) { return fmt::format("{}: {:.3f}", s.name, s.surface.factor); }
 
 Scenery scenery_with_surfaces(const Case& scene, const SafetyAnswer& answer) {
-  Case at_end = scene;
-  at_end.water = at_rest_from(scene.water, scene.time.end);
-  Scenery scenery = scenery_of(at_end);
+  Scenery scenery = scenery_at(scene, scene.flow ? scene.flow->time : scene.time.end);
   scenery.probes.clear();
   const std::vector<NamedSurface> surfaces = slip_surfaces(answer);
   for (std::size_t i = 0; i < surfaces.size(); ++i)

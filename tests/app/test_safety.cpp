@@ -249,3 +249,35 @@ TEST_CASE("a slope whose factor is known is let fail") {
   CHECK(without.status == 2);
   CHECK_THAT(without.err, Contains("--then-run needs strength reduction"));
 }
+
+TEST_CASE("the factor of safety falls as water rises over time, to that of steady seepage") {
+  const auto wet = [](const std::string& mode, const std::string& end, const std::string& level) {
+    std::string text = slope;
+    text.replace(
+        text.find("friction_angle = 20\n"), 20,
+        "friction_angle = 30\npermeability = 1e-5\nretention = { model = \"van_genuchten\", alpha = 2, "
+        "n = 2 }\n");
+    text.replace(text.find("end = 1\n"), 8, "end = " + end + "\n");
+    const auto face = [](const std::string& kind, const std::string& along) {
+      return "[[water.face]]\nkind = \"" + kind + "\"\n" + along;
+    };
+    return text + "[water]\nmode = \"" + mode + "\"\n" +
+           face("head", level + "\nfrom = [0, 0]\nto = [0, 10]\n") +
+           face("seepage", "from = [12, 10]\nto = [32, 0]\n") +
+           face("closed", "from = [0, 0]\nto = [32, 0]\n") +
+           face("closed", "from = [0, 10]\nto = [12, 10]\n");
+  };
+  const Workplace place;
+  place.write("rising.toml", wet("transient", "1e7", "level_over_time = [[0, 1], [1e5, 9]]"));
+  place.write("steady.toml", wet("steady", "1", "level = 9"));
+  const auto fails_at = [&](const std::string& what, const std::string& folder) {
+    const Outcome outcome = place.porosph("safety " + what + " --method strength-reduction --out " + folder);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(exists(place, folder + "/mechanism.png"));
+    return answer(place, folder)["strength_reduction"]["fails_at"].get<double>();
+  };
+  const double before = fails_at("rising.toml --at 0", "before"), after = fails_at("rising.toml", "after");
+  CHECK(before - after > 0.2);
+  CHECK(after == Approx(fails_at("steady.toml", "steady")).margin(0.02));
+}
