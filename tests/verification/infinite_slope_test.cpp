@@ -116,3 +116,72 @@ TEST_CASE("infinite slope: rests within 2 % of its limit and slides beyond", "[i
          "rests at 98 %, slides at 102 %", "2 %");
   }
 }
+
+namespace {
+
+/// A layer of soil at a slope of `share` of the one at which it flows.
+struct Limit {
+  const char* words;
+  double pull;      ///< tangent of the slope at which it flows
+  double pressure;  ///< on its base over that of its own weight
+  Settings settings;
+  double spacing;
+};
+
+const Limit limits[] = {
+    {"sand", 0.5, 1, {}, 0.1},
+    {"sand under water that seeps along it", 0.5 * buoyant, buoyant, {"water={level=1}"}, 0.1},
+    {"clay of c = gamma H / 2",
+     0.5,
+     1,
+     {"particles.spacing=0.02", "soil.layer.cohesion=10e3", "soil.layer.friction_angle=0",
+      "soil.layer.polygon=[[0, 0], [2, 0], [2, 1], [0, 1]]", "load.downhill.from=[2, 1]",
+      "load.downhill.to=[2, 0]"},
+     0.02},
+};
+
+/// How far the layer goes from 0.5 to 1 s, long after its start.
+double flows_by(const Limit& limit, double share, Settings& settings) {
+  const double pull = share * limit.pull;
+  settings = limit.settings;
+  settings.push_back(fmt::format("loading.horizontal={:g}", pull));
+  for (const std::string end : {"uphill", "downhill"}) {
+    settings.push_back(fmt::format("load.{}.pressure_to={:g}", end, limit.pressure * weight));
+    settings.push_back(
+        fmt::format("load.{}.traction_to=[0, {:g}]", end, (end == "uphill" ? -1 : 1) * pull * weight));
+  }
+  Simulation s(scene("infinite_slope_soil", settings));
+  const auto way = [&] {
+    double sum = 0, mass = 0;
+    const Particles& p = s.model().particles;
+    for (std::size_t a = 0; a < p.size(); ++a) sum += p.mass[a] * p.displacement(a).x(), mass += p.mass[a];
+    return sum / mass;
+  };
+  run_until(s, 0.5);
+  const double first = way();
+  run_until(s, 1);
+  return way() - first;
+}
+
+}  // namespace
+
+// The lowest row lies half of a spacing above the base and bears shear up to there: clay, whose strength
+// does not grow with depth, flows at c over the weight above it, 1 % later with 50 rows.
+TEST_CASE("infinite slope: soil rests at 99 % of its limit and flows beyond", "[infinite-slope]") {
+  for (const Limit& limit : limits) {
+    const bool clay = limit.spacing < 0.1;
+    const double beyond = clay ? 1.015 : 1.01;
+    Settings settings;
+    CAPTURE(limit.words);
+    CHECK(std::abs(flows_by(limit, 0.99, settings)) < 1e-6);
+    CHECK(flows_by(limit, beyond, settings) > 1e-3);
+    note({.name = "infinite_slope_soil",
+          .settings = settings,
+          .quantity = fmt::format("slope over the one at which it begins to flow, {}", limit.words),
+          .reference = clay                 ? "c / (gamma z sin cos)"
+                       : limit.pressure < 1 ? "gamma' sin(phi) / gamma_sat"
+                                            : "sin(phi), without dilation",
+          .resolution = metres(limit.spacing)},
+         fmt::format("rests at 99 %, flows at {:g} %", 100 * beyond), clay ? "1.5 %" : "1 %");
+  }
+}
