@@ -115,8 +115,11 @@ std::string strength_text(const SoilCase& soil, double spacing) {
     case LawKind::mohr_coulomb:
       break;
   }
-  return fmt::format("; {}, c = {:.4g} kPa, phi = {:g}, psi = {:g} degrees{}", law_name(soil.law),
-                     c.cohesion / 1e3, c.friction_angle, c.dilation_angle, softening_text(c, spacing));
+  return fmt::format(
+      "; {}, c = {:.4g} kPa, phi = {:g}, psi = {:g} degrees{}{}", law_name(soil.law), c.cohesion / 1e3,
+      c.friction_angle, c.dilation_angle,
+      c.dilation_angle > 0 ? fmt::format(" up to a volume strain of {:g}", c.dilation_limit) : "",
+      softening_text(c, spacing));
 }
 
 void print_model(const Simulation& s) {

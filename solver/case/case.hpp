@@ -50,6 +50,7 @@ struct StrengthCase {
   double cohesion = 0;              ///< c [Pa]
   double friction_angle = 0;        ///< phi [degrees]
   double dilation_angle = 0;        ///< psi [degrees]
+  double dilation_limit = 0.1;      ///< volume strain of plastic flow at which dilation ends [-]
   double tensile_strength = never;  ///< beyond the cone's apex: none other [Pa]
   double undrained_strength = 0;    ///< c_u at `level` and above [Pa]
   double growth = 0;                ///< of c_u with depth below it [Pa/m]

@@ -33,6 +33,12 @@ void declare_friction(Fields& f, bool used, StrengthCase& c) {
       Key("dilation_angle", "degrees", "Dilation angle psi of plastic flow; not more than friction_angle.")
           .only_if(used, condition),
       c.dilation_angle, between(0, steepest));
+  f.number(Key("dilation_limit", "",
+               "Volume strain of plastic flow at which dilation ends, as it does in real soil: ln((1 + "
+               "e_max) / (1 + e)) "
+               "from a void ratio e to the largest one, e_max.")
+               .only_if(used && c.dilation_angle > 0, condition + " and dilation_angle > 0"),
+           c.dilation_limit, above(0, 10));
   if (used && c.dilation_angle > c.friction_angle)
     f.reject("dilation_angle", fmt::format("must be <= friction_angle = {} degrees", c.friction_angle));
 }

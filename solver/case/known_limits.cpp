@@ -117,18 +117,21 @@ void check_flow(const Case& c, std::vector<std::string>& out) {
   }
 }
 
-/// failure_shape_dilation: 5 degrees and more break down, 0 does not.
+/// failure_dilation_limit: 0.7 completes, 1 breaks down.
 void check_dilation(const Case& c, std::vector<std::string>& out) {
+  constexpr double most = 0.5;
   const bool damped = c.loading.adaptive_damping || c.loading.damping > 0;
   if (c.formulation.motion != Motion::consistent || damped || !c.loading.gravity_applied) return;
   for (const SoilCase& soil : c.soils) {
     const bool may = soil.law == LawKind::drucker_prager || soil.law == LawKind::mohr_coulomb;
     const StrengthCase& s = soil.strength;
-    if (!may || s.dilation_angle == 0 || s.softening != SofteningKind::none) continue;
+    if (!may || s.dilation_angle == 0 || s.softening != SofteningKind::none || s.dilation_limit <= most)
+      continue;
     out.push_back(fmt::format(
-        "soil '{}' with dilation_angle = {:g}, without damping: where it flows it dilates without end, until "
-        "the run breaks down; with `softening` its dilation ends",
-        soil.name, s.dilation_angle));
+        "soil '{}' with dilation_limit = {:g}, without damping: where it flows its particles grow to {:.2g} "
+        "times their volume, and the run may break down; dense soil is at its largest void ratio at 0.1 or "
+        "so",
+        soil.name, s.dilation_limit, std::exp(s.dilation_limit)));
     return;
   }
 }

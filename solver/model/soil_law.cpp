@@ -26,8 +26,9 @@ Softening softening_of(const StrengthCase& c, double spacing) {
 template <class Make>
 auto frictional(const StrengthCase& c, double spacing, double reduction, Make&& make) {
   const double phi = reduced_angle(c.friction_angle, reduction);
-  const auto peak = make(c.cohesion / reduction, phi, std::min(c.dilation_angle, phi),
-                         std::min(c.tensile_strength / reduction, std::numeric_limits<double>::max()));
+  auto peak = make(c.cohesion / reduction, phi, std::min(c.dilation_angle, phi),
+                   std::min(c.tensile_strength / reduction, std::numeric_limits<double>::max()));
+  peak.dilation_limit = c.dilation_limit;
   if (c.softening == SofteningKind::none) return peak;
   return peak.softened_to(c.residual_cohesion / reduction,
                           reduced_angle(c.residual_friction_angle, reduction), softening_of(c, spacing));

@@ -14,8 +14,8 @@
 namespace porosph {
 
 /// Yields where sqrt(J2) + alpha I1 = k and flows along sqrt(J2) + beta I1 (Drucker and Prager 1952). In
-/// plane strain it has the strength of Mohr and Coulomb's c, phi and dilates by psi. With plastic strain,
-/// alpha, k and beta may fall to their residual values.
+/// plane strain it has the strength of Mohr and Coulomb's c, phi and dilates by psi, up to a volume strain.
+/// With plastic strain, alpha, k and beta may fall to their residual values.
 struct DruckerPrager : Elasticity {
   struct History {
     double plastic_strain = 0;
@@ -30,6 +30,9 @@ struct DruckerPrager : Elasticity {
   double tension =
       std::numeric_limits<double>::max();  ///< most mean tension, where the apex is not less [Pa]
   double sin_phi = 0;                      ///< of the friction angle
+  double dilation_limit =
+      std::numeric_limits<double>::max();  ///< volume strain of plastic flow at which dilation ends
+  double k_at_limit = 0;                   ///< k of the same strength without dilation [Pa]
   Softening softening = {};
   double residual_alpha = 0, residual_k = 0, residual_sin_phi = 0;  ///< of no use without softening
 
@@ -47,6 +50,7 @@ struct DruckerPrager : Elasticity {
     law.k = 3 * cohesion * std::cos(phi) / d;
     law.tension = tension;
     law.sin_phi = std::sin(phi);
+    law.k_at_limit = cohesion * std::cos(phi);
     return law;
   }
   /// The same, softening to a residual cohesion [Pa] and friction angle [degrees] without dilation.
@@ -122,10 +126,12 @@ struct DruckerPrager : Elasticity {
   };
   Surface surface(const History& q) const {
     const double left = softening.left(q.plastic_strain);
-    const double a = residual_alpha + (alpha - residual_alpha) * left;
-    const double c = residual_k + (k - residual_k) * left;
+    const bool dilates = q.dilation < dilation_limit;
+    const double peak_alpha = dilates ? alpha : sin_phi / 3, peak_k = dilates ? k : k_at_limit;
+    const double a = residual_alpha + (peak_alpha - residual_alpha) * left;
+    const double c = residual_k + (peak_k - residual_k) * left;
     const double apex = a > 0 ? c / (3 * a) : std::numeric_limits<double>::max();
-    return {a, c, beta * left, apex < tension ? apex : tension};
+    return {a, c, dilates ? beta * left : 0, apex < tension ? apex : tension};
   }
   template <class Space>
   static double root_j2(const Symmetric<Space>& s) {

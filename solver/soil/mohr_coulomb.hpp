@@ -124,7 +124,8 @@ struct LargestCircle {
   double radius, middle;
 };
 
-/// With plastic strain, c cos(phi), sin(phi) and sin(psi) may fall to their residual values.
+/// With plastic strain, c cos(phi), sin(phi) and sin(psi) may fall to their residual values. Dilation ends at
+/// a volume strain.
 struct MohrCoulomb : Elasticity {
   struct History {
     double plastic_strain = 0;
@@ -136,6 +137,8 @@ struct MohrCoulomb : Elasticity {
 
   double sin_phi = 0, c_cos_phi = 0, sin_psi = 0;       ///< [-], [Pa], [-]
   double tension = std::numeric_limits<double>::max();  ///< most principal tension [Pa]
+  double dilation_limit =
+      std::numeric_limits<double>::max();  ///< volume strain of plastic flow at which dilation ends
   Softening softening = {};
   double residual_sin_phi = 0, residual_c_cos_phi = 0;  ///< of no use without softening
 
@@ -161,7 +164,8 @@ struct MohrCoulomb : Elasticity {
   MohrCoulombSurface surface(const History& q) const {
     const double left = softening.left(q.plastic_strain);
     return {residual_sin_phi + (sin_phi - residual_sin_phi) * left,
-            residual_c_cos_phi + (c_cos_phi - residual_c_cos_phi) * left, sin_psi * left, tension};
+            residual_c_cos_phi + (c_cos_phi - residual_c_cos_phi) * left,
+            q.dilation < dilation_limit ? sin_psi * left : 0, tension};
   }
   /// Radius of the largest circle, and the most that the law bears around its middle [Pa].
   template <HasPrincipalPlane Space>

@@ -91,6 +91,6 @@ TEST_CASE("how high water may stand with the conventional form is what the map s
   check_limit(row("water_formulation", true, "eq. (17)"), "suction");
 }
 
-TEST_CASE("soil that flows and dilates without end breaks down, as the map says", "[limits]") {
-  check_limit(row("failure_shape_dilation", false, "1"), "dilation_angle");
+TEST_CASE("how far soil that flows may dilate is what the map says", "[limits]") {
+  check_limit(row("failure_dilation_limit", true, "30"), "dilation_limit");
 }

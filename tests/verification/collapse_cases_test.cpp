@@ -105,3 +105,27 @@ TEST_CASE("columns of sand go about as far as in experiments", "[collapse]") {
   compare("height left at the wall", d.height / width, law.height, 0.2);
   CHECK(d.kinetic < 1e-4);
 }
+
+TEST_CASE("a column of sand that dilates comes to rest, no looser than its limit", "[collapse]") {
+  const int angle = GENERATE(5, 15, 30);
+  const std::string law = GENERATE("drucker_prager", "mohr_coulomb");
+  CAPTURE(angle, law);
+  Simulation simulation(
+      scene("collapse/square", {"particles.spacing=0.005", "probe=[]", "soil.sand.law=" + law,
+                                fmt::format("soil.sand.dilation_angle={}", angle)}));
+  const double before = simulation.energy().gravity;
+  const std::vector<double> density = simulation.model().particles.density;
+  run_to_end(simulation);
+  const Simulation::Energy energy = simulation.energy();
+  CHECK(energy.kinetic < 1e-4 * (before - energy.gravity));
+  const Particles& p = simulation.model().particles;
+  double volume = 0, loosest = 0;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    volume += density[a] / p.density[a] / static_cast<double>(p.size());
+    loosest = std::max(loosest, density[a] / p.density[a]);
+  }
+  const double limit = std::exp(scene("collapse/square").soils[0].strength.dilation_limit);
+  CHECK(volume > 1.03);
+  CHECK(volume < limit);
+  CHECK(loosest < 1.05 * limit);  // by what the last step before the limit adds
+}

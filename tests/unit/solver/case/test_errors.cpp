@@ -73,6 +73,10 @@ TEST_CASE("values that are wrong by themselves") {
        "law = 'mohr_coulomb'\ncohesion = 0\nfriction_angle = 30\ndilation_angle = 31\npoissons_ratio",
        "box.toml:13:18: key 'soil[0].dilation_angle' = 31: must be <= friction_angle = 30 degrees"},
       {"poissons_ratio",
+       "law = 'mohr_coulomb'\ncohesion = 0\nfriction_angle = 30\ndilation_limit = 0.05\npoissons_ratio",
+       "box.toml:13:18: key 'soil[0].dilation_limit' = 0.05: is used only with law = \"drucker_prager\" or "
+       "\"mohr_coulomb\" and dilation_angle > 0"},
+      {"poissons_ratio",
        "law = 'drucker_prager'\ncohesion = 1\nfriction_angle = 30\nresidual_cohesion = 0.5\npoissons_ratio",
        "box.toml:13:21: key 'soil[0].residual_cohesion' = 0.5: is used only with softening = \"exponential\" "
        "or "

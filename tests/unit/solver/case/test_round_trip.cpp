@@ -118,15 +118,15 @@ TEST_CASE("water that flows is read, written and read as the same") {
 }
 
 TEST_CASE("the strength of a soil is read, written and read as the same") {
-  const std::string law =
-      GENERATE(as<std::string>(),
-               "law = 'mohr_coulomb'\ncohesion = 5e3\nfriction_angle = 30\ndilation_angle = 7\n"
-               "tensile_strength = 1e3\nsoftening = 'linear'\nsoftening_strain = 0.1\n"
-               "softening_length = 0.4\nresidual_cohesion = 1e3\n",
-               "law = 'drucker_prager'\ncohesion = 0\nfriction_angle = 19.8\n",
-               "law = 'tresca'\nundrained_strength = 20e3\nundrained_strength_growth = 1.3e3\n"
-               "undrained_strength_level = 1.5\nsoftening = 'exponential'\nsoftening_strain = 0.2\n"
-               "softening_length = 0.5\nsensitivity = 3\n");
+  const std::string law = GENERATE(
+      as<std::string>(),
+      "law = 'mohr_coulomb'\ncohesion = 5e3\nfriction_angle = 30\ndilation_angle = 7\ndilation_limit = 0.07\n"
+      "tensile_strength = 1e3\nsoftening = 'linear'\nsoftening_strain = 0.1\n"
+      "softening_length = 0.4\nresidual_cohesion = 1e3\n",
+      "law = 'drucker_prager'\ncohesion = 0\nfriction_angle = 19.8\n",
+      "law = 'tresca'\nundrained_strength = 20e3\nundrained_strength_growth = 1.3e3\n"
+      "undrained_strength_level = 1.5\nsoftening = 'exponential'\nsoftening_strain = 0.2\n"
+      "softening_length = 0.5\nsensitivity = 3\n");
   std::string text = small_case;
   text.insert(text.find("poissons_ratio"), law);
   const Case c = parse_case(text, "box.toml");
@@ -134,6 +134,7 @@ TEST_CASE("the strength of a soil is read, written and read as the same") {
   const StrengthCase& s = c.soils[0].strength;
   if (c.soils[0].law == LawKind::mohr_coulomb) {
     CHECK(s.residual_friction_angle == 30);
+    CHECK(s.dilation_limit == 0.07);
     CHECK(s.tensile_strength == 1e3);
   }
   if (c.soils[0].law == LawKind::drucker_prager) CHECK(s.tensile_strength == never);

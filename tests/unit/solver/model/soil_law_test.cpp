@@ -13,7 +13,8 @@ namespace {
 SoilCase weak(LawKind law) {
   SoilCase soil = box_of_soil(4, 4).soils[0];
   soil.law = law;
-  soil.strength.cohesion = 6e3, soil.strength.friction_angle = 30, soil.strength.dilation_angle = 20;
+  soil.strength.cohesion = 6e3, soil.strength.friction_angle = 30, soil.strength.dilation_angle = 20,
+  soil.strength.dilation_limit = 0.05;
   soil.strength.undrained_strength = 25e3, soil.strength.growth = 2e3;
   return soil;
 }
@@ -28,6 +29,7 @@ TEST_CASE("strength is reduced as c and tan phi, or c_u", "[law]") {
   const auto mc = std::get<MohrCoulomb>(soil_law(weak(LawKind::mohr_coulomb), 0.5, f));
   CHECK(mc.sin_phi == Approx(std::sin(phi)).epsilon(1e-14));
   CHECK(mc.c_cos_phi == Approx(6e3 / f * std::cos(phi)).epsilon(1e-14));
+  CHECK(mc.dilation_limit == 0.05);
   CHECK(mc.sin_psi == Approx(std::sin(std::min(20 * radian, phi))).epsilon(1e-14));
   const auto dp = std::get<DruckerPrager>(soil_law(weak(LawKind::drucker_prager), 0.5, f));
   CHECK(dp.sin_phi == Approx(std::sin(phi)).epsilon(1e-14));

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/soil/mohr_coulomb.hpp"
+
 using namespace porosph;
 
 namespace {
@@ -67,6 +69,31 @@ TEST_CASE("yielding soil dilates by its dilation angle", "[soil]") {
   const double multiplier = (q.plastic_strain - plastic_before) * std::numbers::sqrt3;
   CHECK(volume == Approx(3 * law.beta * multiplier).epsilon(1e-6).margin(1e-16));
   CHECK(std::abs(law.yield(stress)) < 1e-9 * 50e3);
+}
+
+TEST_CASE("dilation ends at its limit, and the strength stays Mohr and Coulomb's", "[soil]") {
+  const double limit = 0.002, p0 = 50e3;
+  const auto check = [&](auto law) {
+    law.dilation_limit = limit;
+    typename decltype(law)::History q;
+    Stress stress{-p0, -p0, -p0, 0};
+    // At constant volume pressure builds up by K times the dilation.
+    double before = 0;
+    for (int i = 0; i < 40000; ++i) {
+      before = q.dilation;
+      stress = law.step(stress, Gradient{0, 5e-6, 5e-6, 0}, 1, q);
+    }
+    CHECK(q.dilation >= limit);
+    CHECK(q.dilation < limit + 1e-5);
+    CHECK(q.dilation == before);
+    CHECK(-stress.mean() == Approx(p0 + elastic.bulk_modulus * q.dilation).epsilon(1e-9));
+    const double pressure = -0.5 * (stress.xx + stress.yy);
+    CHECK(stress.xy ==
+          Approx(pressure * std::sin(friction * radians) + cohesion * std::cos(friction * radians))
+              .epsilon(1e-6));
+  };
+  check(DruckerPrager::from_mohr_coulomb(elastic, cohesion, friction, 15));
+  check(MohrCoulomb::from_angles(elastic, cohesion, friction, 15));
 }
 
 TEST_CASE("no stress is left outside the surface, its apex or the tension cut-off", "[soil]") {
