@@ -102,8 +102,8 @@ const Particles& particles(Simulation& s) { return s.model().particles; }
 
 const Soil& soil_of(Simulation& s, std::size_t i) { return s.model().soils[particles(s).soil[i]]; }
 
-const std::vector<Reader>& readers() {
-  static const std::vector<Reader> all = {
+std::vector<Reader> readers_of_particles() {
+  return {
       {particle_fields::displacement.name,
        [](Simulation& s) {
          return vectors(particles(s), [&](auto i) { return particles(s).displacement(i); });
@@ -132,6 +132,11 @@ const std::vector<Reader>& readers() {
                                       [&](auto i) { return s.model().soil_ids[particles(s).soil[i]]; });
        }},
       {particle_fields::particle_id.name, [](Simulation& s) { return particles(s).id; }},
+  };
+}
+
+std::vector<Reader> readers_of_stress_and_strain() {
+  return {
       {particle_fields::principal_stress.name, [](Simulation& s) { return principal(particles(s)); }},
       {particle_fields::mean_stress.name,
        [](Simulation& s) {
@@ -168,6 +173,11 @@ const std::vector<Reader>& readers() {
          return scalars<double>(particles(s),
                                 [&](auto i) { return soil_of(s, i).mobilised_friction(particles(s), i); });
        }},
+  };
+}
+
+std::vector<Reader> readers_of_water() {
+  return {
       {particle_fields::head.name,
        [](Simulation& s) {
          return scalars<double>(particles(s), [&](auto i) {
@@ -204,6 +214,15 @@ const std::vector<Reader>& readers() {
          return scalars<double>(particles(s), [&](auto i) { return pore_pressure_ratio(particles(s), i); });
        }},
   };
+}
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all = [] {
+    std::vector<Reader> readers = readers_of_particles();
+    for (const auto& of : {readers_of_stress_and_strain(), readers_of_water()})
+      readers.insert(readers.end(), of.begin(), of.end());
+    return readers;
+  }();
   return all;
 }
 

@@ -75,7 +75,7 @@ struct Summary {
     double walls = 0;           ///< by the stress that is extrapolated behind walls
     double diffusion = 0;       ///< by the diffusion of stress
     double bulk_viscosity = 0;  ///< by bulk viscosity
-    double unaccounted = 0;     ///< the rest: at walls, and what the integration loses or gains
+    double unaccounted = 0;     ///< the rest: what the integration loses or gains
   };
   std::optional<EnergyBudget> energy;
   /// What water did that flows.

@@ -176,49 +176,96 @@ void RunProgress::visit(StateArchive& state) {
   state.value("stepping_seconds", stepping_seconds);
 }
 
-RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
+namespace {
+
+/// Frames and rows of the history, each once.
+class Recorder {
+ public:
+  Recorder(Simulation& s, const RunWatch& watch, RunProgress& progress)
+      : s_(s),
+        watch_(watch),
+        progress_(progress),
+        frames_(s.scene().output.interval, s.time_step(), s.last_step(), s.scene().output.times,
+                s.start_time()),
+        rows_(s.scene().output.history_interval > 0 ? s.scene().output.history_interval : s.time_step(),
+              s.time_step(), s.last_step(), {}, s.start_time()) {}
+
+  void record(bool frame, bool row) {
+    if (frame && progress_.framed != s_.step()) {
+      progress_.framed = s_.step();
+      if (watch_.frame) watch_.frame(s_);
+    }
+    if (row && progress_.recorded != s_.step()) {
+      progress_.recorded = s_.step();
+      if (watch_.history) watch_.history(history_row(s_));
+    }
+  }
+  void record_what_is_due() { record(frames_.due(s_.step()), rows_.due(s_.step())); }
+
+ private:
+  Simulation& s_;
+  const RunWatch& watch_;
+  RunProgress& progress_;
+  Schedule frames_, rows_;
+};
+
+void begin(Simulation& s, RunProgress& progress, Recorder& recorder) {
+  if (progress.has_begun()) {  // the end may be later than it was
+    recorder.record_what_is_due();
+    return;
+  }
+  s.begin();
+  const Simulation::Energy energy = s.energy();
+  progress.energy_at_start = energy.total();
+  progress.most_at_work = energy.kinetic + energy.elastic;
+  progress.unbalanced_at = progress.zigzag_at = s.start_time();
+  if (s.start_time() > 0)  // the stage before ended with what there was to record
+    progress.framed = progress.recorded = 0;
+  else
+    recorder.record(true, true);
+}
+
+/// A step, and whether the soil is at rest after it.
+bool advance(Simulation& s, const Guard& guard, const Equilibrium& equilibrium, RunProgress& progress) {
   using Clock = std::chrono::steady_clock;
-  const OutputCase& output = s.scene().output;
-  const Schedule frames(output.interval, s.time_step(), s.last_step(), output.times, s.start_time());
-  const double history_interval = output.history_interval > 0 ? output.history_interval : s.time_step();
-  const Schedule rows(history_interval, s.time_step(), s.last_step(), {}, s.start_time());
+  const auto before = Clock::now();
+  s.advance();
+  guard.look(s, progress);
+  bool settled = !s.instability() && equilibrium.reached(s, progress);
+  if (settled) {
+    s.look_for_breakdown();
+    settled = !s.instability();
+  }
+  progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+  return settled;
+}
+
+/// The last frame, and what became of the energy.
+void end(Simulation& s, RunProgress& progress, Recorder& recorder, RunOutcome& outcome) {
+  outcome.stepping_seconds = progress.stepping_seconds;
+  const bool showable = outcome.status != RunStatus::unstable || s.showable();
+  if (showable)
+    recorder.record(true, true);
+  else if (s.exchange_with_last_good()) {
+    recorder.record(progress.framed < s.step(), false);
+    s.exchange_with_last_good();
+  }
+  const Simulation::Energy energy = s.energy();
+  progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
+  outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
+  if (showable) outcome.energy = energy_budget(s, progress.energy_at_start);
+}
+
+}  // namespace
+
+RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
+  Recorder recorder(s, watch, progress);
   const Equilibrium equilibrium(s);
   RunOutcome outcome;
-  const auto record = [&](bool frame_due, bool row_due) {
-    if (frame_due && progress.framed != s.step()) {
-      progress.framed = s.step();
-      if (watch.frame) watch.frame(s);
-    }
-    if (row_due && progress.recorded != s.step()) {
-      progress.recorded = s.step();
-      if (watch.history) watch.history(history_row(s));
-    }
-  };
-
-  if (!progress.has_begun()) {
-    s.begin();
-    const Simulation::Energy energy = s.energy();
-    progress.energy_at_start = energy.total();
-    progress.most_at_work = energy.kinetic + energy.elastic;
-    progress.unbalanced_at = progress.zigzag_at = s.start_time();
-    if (s.start_time() > 0)  // the stage before ended with what there was to record
-      progress.framed = progress.recorded = 0;
-    else
-      record(true, true);
-  } else {
-    record(frames.due(s.step()), rows.due(s.step()));  // where the end is later than it was
-  }
+  begin(s, progress, recorder);
   const Guard guard(s);
   while (s.step() < s.last_step()) {
-    const auto before = Clock::now();
-    s.advance();
-    guard.look(s, progress);
-    bool settled = !s.instability() && equilibrium.reached(s, progress);
-    if (settled) {
-      s.look_for_breakdown();
-      settled = !s.instability();
-    }
-    progress.stepping_seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    const bool settled = advance(s, guard, equilibrium, progress);
     if (s.instability()) {
       outcome.status = RunStatus::unstable;
       outcome.message = s.instability()->message;
@@ -227,7 +274,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     const bool failed = !settled && has_failed(s);
     const bool last = s.step() == s.last_step();
     if (last && !settled && watch.checkpoint) watch.checkpoint(s, progress, true);
-    record(frames.due(s.step()), rows.due(s.step()));
+    recorder.record_what_is_due();
     if (watch.progress) watch.progress(s);
     const bool goes_on = !last && !settled && !failed;
     const bool interrupted = goes_on && watch.interrupted && watch.interrupted();
@@ -248,18 +295,7 @@ RunOutcome run(Simulation& s, const RunWatch& watch, RunProgress progress) {
     }
     if (outcome.status != RunStatus::completed) break;
   }
-  outcome.stepping_seconds = progress.stepping_seconds;
-  const bool showable = outcome.status != RunStatus::unstable || s.showable();
-  if (showable)
-    record(true, true);
-  else if (s.exchange_with_last_good()) {
-    record(progress.framed < s.step(), false);
-    s.exchange_with_last_good();
-  }
-  const Simulation::Energy energy = s.energy();
-  progress.most_at_work = std::max(progress.most_at_work, energy.kinetic + energy.elastic);
-  outcome.energy_growth = showable ? energy_growth(energy, progress) : std::nan("");
-  if (showable) outcome.energy = energy_budget(s, progress.energy_at_start);
+  end(s, progress, recorder, outcome);
   return outcome;
 }
 

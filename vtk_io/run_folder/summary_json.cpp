@@ -111,6 +111,52 @@ Json to_json(const Summary::Stage& stage) {
   return json;
 }
 
+Json to_json(const Summary::Zigzag& zigzag) {
+  Json json;
+  put(json, "rms", zigzag.rms), put(json, "quantile_99", zigzag.quantile);
+  put(json, "largest", zigzag.largest);
+  put(json, "x", zigzag.x), put(json, "y", zigzag.y);
+  return json;
+}
+
+Json to_json(const Summary::EnergyBudget& e) {
+  Json json;
+  put(json, "released", e.released), put(json, "kinetic", e.kinetic), put(json, "elastic", e.elastic);
+  put(json, "plastic", e.plastic), put(json, "control", e.control), put(json, "contact", e.contact);
+  put(json, "wall_friction", e.friction), put(json, "walls", e.walls);
+  put(json, "stress_diffusion", e.diffusion), put(json, "bulk_viscosity", e.bulk_viscosity);
+  put(json, "unaccounted", e.unaccounted);
+  return json;
+}
+
+Json to_json(const Summary::Seepage& seepage) {
+  Json json;
+  json["through_faces"] = seepage.through_faces;
+  put(json, "imbalance", seepage.imbalance);
+  json["newton_steps"] = seepage.newton_steps;
+  json["krylov_iterations"] = seepage.krylov_iterations;
+  for (const auto& [name, discharge] : seepage.sections) put(json["sections"], name, discharge);
+  return json;
+}
+
+Json to_json(const Summary::Consolidation& c) {
+  Json json;
+  json["flow_steps"] = c.flow_steps, json["pressure_solves"] = c.pressure_solves;
+  json["krylov_iterations"] = c.krylov_iterations, json["soil_sweeps"] = c.soil_sweeps;
+  put(json, "drained", c.drained), put(json, "imbalance", c.imbalance);
+  return json;
+}
+
+Json to_json(const Summary::TransientSeepage& c) {
+  Json json;
+  json["flow_steps"] = c.flow_steps, json["refused_steps"] = c.refused_steps;
+  json["newton_steps"] = c.newton_steps, json["krylov_iterations"] = c.krylov_iterations;
+  json["soil_sweeps"] = c.soil_sweeps;
+  put(json, "entered", c.entered), put(json, "left", c.left), put(json, "gained", c.gained);
+  put(json, "imbalance", c.imbalance);
+  return json;
+}
+
 Json to_json(const Summary& summary) {
   Json json;
   json["title"] = summary.title;
@@ -130,46 +176,11 @@ Json to_json(const Summary& summary) {
   json["kernel_correction"] = summary.kernel_correction;
   put(json, "unbalanced_force_ratio", summary.unbalanced_force_ratio);
   put(json, "energy_growth", summary.energy_growth);
-  if (summary.zigzag) {
-    Json& zigzag = json["zigzag"];
-    put(zigzag, "rms", summary.zigzag->rms), put(zigzag, "quantile_99", summary.zigzag->quantile);
-    put(zigzag, "largest", summary.zigzag->largest);
-    put(zigzag, "x", summary.zigzag->x), put(zigzag, "y", summary.zigzag->y);
-  }
-  if (summary.energy) {
-    const auto& e = *summary.energy;
-    Json& energy = json["energy_budget"];
-    put(energy, "released", e.released), put(energy, "kinetic", e.kinetic);
-    put(energy, "elastic", e.elastic), put(energy, "plastic", e.plastic), put(energy, "control", e.control);
-    put(energy, "contact", e.contact), put(energy, "wall_friction", e.friction),
-        put(energy, "walls", e.walls);
-    put(energy, "stress_diffusion", e.diffusion), put(energy, "bulk_viscosity", e.bulk_viscosity);
-    put(energy, "unaccounted", e.unaccounted);
-  }
-  if (summary.seepage) {
-    Json& seepage = json["seepage"];
-    seepage["through_faces"] = summary.seepage->through_faces;
-    put(seepage, "imbalance", summary.seepage->imbalance);
-    seepage["newton_steps"] = summary.seepage->newton_steps;
-    seepage["krylov_iterations"] = summary.seepage->krylov_iterations;
-    for (const auto& [name, discharge] : summary.seepage->sections) put(seepage["sections"], name, discharge);
-  }
-  if (summary.consolidation) {
-    const auto& c = *summary.consolidation;
-    Json& object = json["consolidation"];
-    object["flow_steps"] = c.flow_steps, object["pressure_solves"] = c.pressure_solves;
-    object["krylov_iterations"] = c.krylov_iterations, object["soil_sweeps"] = c.soil_sweeps;
-    put(object, "drained", c.drained), put(object, "imbalance", c.imbalance);
-  }
-  if (summary.transient) {
-    const auto& c = *summary.transient;
-    Json& object = json["transient_seepage"];
-    object["flow_steps"] = c.flow_steps, object["refused_steps"] = c.refused_steps;
-    object["newton_steps"] = c.newton_steps, object["krylov_iterations"] = c.krylov_iterations;
-    object["soil_sweeps"] = c.soil_sweeps;
-    put(object, "entered", c.entered), put(object, "left", c.left), put(object, "gained", c.gained);
-    put(object, "imbalance", c.imbalance);
-  }
+  if (summary.zigzag) json["zigzag"] = to_json(*summary.zigzag);
+  if (summary.energy) json["energy_budget"] = to_json(*summary.energy);
+  if (summary.seepage) json["seepage"] = to_json(*summary.seepage);
+  if (summary.consolidation) json["consolidation"] = to_json(*summary.consolidation);
+  if (summary.transient) json["transient_seepage"] = to_json(*summary.transient);
   json["probes"] = object_of(summary.probes);
   if (!summary.footings.empty()) json["footings"] = object_of(summary.footings);
   for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
@@ -362,6 +373,57 @@ Summary::Stage stage_from(const Object& json) {
           .safety = json.has("safety") ? std::optional(safety_from(json.object("safety"))) : std::nullopt};
 }
 
+std::map<std::string, ErrorNorms> errors_from(const Object& json) {
+  std::map<std::string, ErrorNorms> errors;
+  for (const auto& field : json.keys()) {
+    const Object norms = json.object(field);
+    errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
+  }
+  return errors;
+}
+
+Summary::EnergyBudget energy_from(const Object& e) {
+  const auto newer = [&](const char* key) { return e.has(key) ? e.number(key) : 0; };  // older runs have none
+  return {.released = e.number("released"),
+          .kinetic = e.number("kinetic"),
+          .elastic = e.number("elastic"),
+          .plastic = e.number("plastic"),
+          .control = e.number("control"),
+          .contact = newer("contact"),
+          .friction = newer("wall_friction"),
+          .walls = newer("walls"),
+          .diffusion = e.number("stress_diffusion"),
+          .bulk_viscosity = e.number("bulk_viscosity"),
+          .unaccounted = e.number("unaccounted")};
+}
+
+Summary::Zigzag zigzag_from(const Object& json) {
+  return {json.number("rms"), json.number("quantile_99"), json.number("largest"), json.number("x"),
+          json.number("y")};
+}
+
+Summary::Seepage seepage_from(const Object& json) {
+  Summary::Seepage seepage{json.numbers("through_faces"), json.number("imbalance"),
+                           json.integer<int>("newton_steps"), json.integer<int>("krylov_iterations")};
+  if (!json.has("sections")) return seepage;
+  const Object sections = json.object("sections");
+  for (const auto& name : sections.keys()) seepage.sections[name] = sections.number(name);
+  return seepage;
+}
+
+Summary::TransientSeepage transient_seepage_from(const Object& json) {
+  const auto count = [&](const char* key) { return json.integer<std::int64_t>(key); };
+  return {count("flow_steps"),        count("refused_steps"), count("newton_steps"),
+          count("krylov_iterations"), count("soil_sweeps"),   json.number("entered"),
+          json.number("left"),        json.number("gained"),  json.number("imbalance")};
+}
+
+Summary::Consolidation consolidation_from(const Object& json) {
+  const auto count = [&](const char* key) { return json.integer<std::int64_t>(key); };
+  return {count("flow_steps"),  count("pressure_solves"), count("krylov_iterations"),
+          count("soil_sweeps"), json.number("drained"),   json.number("imbalance")};
+}
+
 Summary summary_from(const Object& json) {
   Summary summary;
   summary.title = json.text("title");
@@ -385,54 +447,13 @@ Summary summary_from(const Object& json) {
   summary.footings = footings_from(json);
   if (json.has("stages"))
     for (const Object& stage : json.objects("stages")) summary.stages.push_back(stage_from(stage));
-  if (json.has("errors")) {
-    const auto errors = json.object("errors");
-    for (const auto& field : errors.keys()) {
-      const auto norms = errors.object(field);
-      summary.errors[field] = {norms.number("relative_l2"), norms.number("max_abs")};
-    }
-  }
-  if (json.has("energy_budget")) {
-    const auto e = json.object("energy_budget");
-    summary.energy = {.released = e.number("released"),
-                      .kinetic = e.number("kinetic"),
-                      .elastic = e.number("elastic"),
-                      .plastic = e.number("plastic"),
-                      .control = e.number("control"),
-                      .contact = e.has("contact") ? e.number("contact") : 0,  // older runs have none
-                      .friction = e.has("wall_friction") ? e.number("wall_friction") : 0,
-                      .walls = e.has("walls") ? e.number("walls") : 0,
-                      .diffusion = e.number("stress_diffusion"),
-                      .bulk_viscosity = e.number("bulk_viscosity"),
-                      .unaccounted = e.number("unaccounted")};
-  }
-  if (json.has("zigzag")) {
-    const auto zigzag = json.object("zigzag");
-    summary.zigzag = {zigzag.number("rms"), zigzag.number("quantile_99"), zigzag.number("largest"),
-                      zigzag.number("x"), zigzag.number("y")};
-  }
-  if (json.has("seepage")) {
-    const auto seepage = json.object("seepage");
-    summary.seepage = {seepage.numbers("through_faces"), seepage.number("imbalance"),
-                       seepage.integer<int>("newton_steps"), seepage.integer<int>("krylov_iterations")};
-    if (seepage.has("sections")) {
-      const auto sections = seepage.object("sections");
-      for (const auto& name : sections.keys()) summary.seepage->sections[name] = sections.number(name);
-    }
-  }
-  if (json.has("transient_seepage")) {
-    const auto c = json.object("transient_seepage");
-    const auto count = [&](const char* key) { return c.integer<std::int64_t>(key); };
-    summary.transient = {count("flow_steps"),        count("refused_steps"), count("newton_steps"),
-                         count("krylov_iterations"), count("soil_sweeps"),   c.number("entered"),
-                         c.number("left"),           c.number("gained"),     c.number("imbalance")};
-  }
-  if (json.has("consolidation")) {
-    const auto c = json.object("consolidation");
-    const auto count = [&](const char* key) { return c.integer<std::int64_t>(key); };
-    summary.consolidation = {count("flow_steps"),  count("pressure_solves"), count("krylov_iterations"),
-                             count("soil_sweeps"), c.number("drained"),      c.number("imbalance")};
-  }
+  if (json.has("errors")) summary.errors = errors_from(json.object("errors"));
+  if (json.has("energy_budget")) summary.energy = energy_from(json.object("energy_budget"));
+  if (json.has("zigzag")) summary.zigzag = zigzag_from(json.object("zigzag"));
+  if (json.has("seepage")) summary.seepage = seepage_from(json.object("seepage"));
+  if (json.has("transient_seepage"))
+    summary.transient = transient_seepage_from(json.object("transient_seepage"));
+  if (json.has("consolidation")) summary.consolidation = consolidation_from(json.object("consolidation"));
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   if (json.has("warnings")) summary.warnings = json.texts("warnings");
   const auto skipped = json.object("skipped");
