@@ -36,8 +36,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 }
 
 /// By the map cases/stability/refresh_zero_energy.toml; in flow by collapsing columns, which a limit of 0.02
-/// lets run out equally far, to 0.5 %, in twice the time. Elastic bodies keep their neighbours, and each new
-/// reference takes what alternates as it is.
+/// lets run out equally far, to 0.5 %, in 1.4 times the time. Elastic bodies keep their neighbours, and each
+/// new reference takes what alternates as it is.
 double ConsistentDynamics::refresh_strain() const {
   constexpr double usual = 0.02, in_flow = 0.05, of_bodies = 0.1;
   if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;

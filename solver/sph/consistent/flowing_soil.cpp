@@ -226,8 +226,7 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a)
     gradient[a] = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
-  sample_.acceleration.assign(n, Vec2::Zero());
-  sample_.velocity = p.velocity;
+  sample_.begin(p);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     Vec2 force = Vec2::Zero();

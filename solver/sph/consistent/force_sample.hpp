@@ -18,6 +18,8 @@ struct ForceSample {
   std::int64_t steps = 0;                    ///< counted so far
 
   bool due() const { return steps % steps_between == 0; }
+  /// Makes room for the sums of a step in which one is due.
+  void begin(const Particles& p) { acceleration.assign(p.size(), Vec2::Zero()), velocity = p.velocity; }
   /// Energy that the force takes over the step dt [s] that has led to the velocities now, and those that this
   /// one stands for; 0 where none was due [J/m].
   double taken(const Particles& p, double dt) {

@@ -123,8 +123,7 @@ void WallFriction::sample(const ReferenceConfiguration& r, const Particles& p) {
   sample_.acceleration.clear();
   if (!sample_.due()) return;
   const auto n = static_cast<std::int32_t>(p.size());
-  sample_.acceleration.assign(n, Vec2::Zero());
-  sample_.velocity = p.velocity;
+  sample_.begin(p);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     Vec2 force = Vec2::Zero();
