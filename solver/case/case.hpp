@@ -29,7 +29,7 @@ enum class Arrangement {
 
 struct ParticlesCase {
   double spacing = 0;            ///< dx [m]
-  double smoothing_ratio = 1.2;  ///< h / dx; in a file 1 with automatic, surface and stretched
+  double smoothing_ratio = 1.2;  ///< h / dx; in a file by default_smoothing_ratio()
   Arrangement arrangement = Arrangement::lattice;
   double disorder = 0;  ///< largest random displacement / dx, with Arrangement::disordered
   int seed = 1;         ///< of the random displacements

@@ -67,6 +67,11 @@ std::vector<CaseIssue> check_loads(const Case& c) {
   return issues;
 }
 
+bool footing_on_soil_that_may_yield(const Case& c) {
+  const auto yields = [](const SoilCase& soil) { return soil.law != LawKind::elastic; };
+  return !c.footings.empty() && std::ranges::any_of(c.soils, yields);
+}
+
 std::vector<CaseIssue> check_footings(const Case& c) {
   std::vector<CaseIssue> issues;
   for (std::size_t i = 0; i < c.footings.size(); ++i) {
@@ -76,7 +81,9 @@ std::vector<CaseIssue> check_footings(const Case& c) {
     if (settles == (footing.force < never))
       issues.push_back(
           {key, fmt::format("footing '{}' needs one of 'force' and 'settlement'", footing.name)});
-    if (settles && (footing.over_time.empty() || footing.over_time.front() != Point::Zero()))
+    const bool from_nothing = !footing.over_time.empty() && footing.over_time.front().y() == 0 &&
+                              footing.over_time.front().x() >= 0;  // later in a stage
+    if (settles && !from_nothing)
       issues.push_back(
           {key + ".over_time",
            "must begin with [0, 0]: a footing that is driven by its settlement has none at first"});

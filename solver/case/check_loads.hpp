@@ -13,4 +13,7 @@ std::vector<CaseIssue> check_loads(const Case&);
 /// Of footings: where they are, what drives them, and what they do not go with.
 std::vector<CaseIssue> check_footings(const Case&);
 
+/// Such soil flows around the footing's edge once it yields.
+bool footing_on_soil_that_may_yield(const Case&);
+
 }  // namespace porosph

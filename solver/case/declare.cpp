@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/case/case_file.hpp"
+#include "solver/case/check_loads.hpp"
 #include "solver/case/fields.hpp"
 #include "solver/case/outline_edges.hpp"
 
@@ -19,11 +20,14 @@ constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
 constexpr std::array<Names, 2> frame_precisions{"double", "single"};
 constexpr std::array<Names, 3> references{"none", "column", "conventional_column"};
 
-/// By the maps of docs/stability.md; the paper's lattices have 1.2.
-double default_smoothing_ratio(Arrangement arrangement) {
-  const bool fits = arrangement == Arrangement::automatic || arrangement == Arrangement::surface ||
-                    arrangement == Arrangement::stretched;
-  return fits ? 1 : 1.2;
+constexpr double not_given = 0;  // a smoothing ratio that the rest of the case decides
+
+/// By the maps of docs/stability.md; the paper's lattices have 1.2. Soil that flows around the edge of a
+/// footing needs more neighbours than h = dx has (docs/theory.md).
+double default_smoothing_ratio(const Case& c) {
+  const Arrangement arrangement = c.particles.arrangement;
+  const bool fits = arrangement == Arrangement::surface || arrangement == Arrangement::stretched;
+  return fits && !footing_on_soil_that_may_yield(c) ? 1 : 1.2;
 }
 
 }  // namespace
@@ -78,6 +82,7 @@ void declare(Fields& f, Case& c) {
       c.footings);
   f.set_defaults([&] {
     if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
+    if (c.particles.smoothing_ratio == not_given) c.particles.smoothing_ratio = default_smoothing_ratio(c);
   });
   f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
@@ -116,10 +121,12 @@ void declare(Fields& f, ParticlesCase& c) {
           "soil; `disordered`: cells around randomly displaced points. All carry the soil's drawn volume.")
           .otherwise("automatic"),
       c.arrangement, arrangements);
-  f.set_defaults([&] { c.smoothing_ratio = default_smoothing_ratio(c.arrangement); });
-  f.number(Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx.")
-               .otherwise("1, but 1.2 with lattice, fitted and disordered"),
-           c.smoothing_ratio, between(0.8, 3));
+  f.set_defaults([&] { c.smoothing_ratio = not_given; });
+  f.number(
+      Key("smoothing_ratio", "", "Smoothing length over spacing, h / dx.")
+          .otherwise("1, but 1.2 with lattice, fitted and disordered, and where a footing stands in a case "
+                     "with soil that may yield"),
+      c.smoothing_ratio, between(0.8, 3));
   const bool disordered = c.arrangement == Arrangement::disordered;
   f.number(Key("disorder", "", "Largest random displacement over spacing.")
                .only_if(disordered, "arrangement = \"disordered\""),

@@ -11,18 +11,10 @@ namespace {
 
 constexpr double weight = 20e3, height = 2;
 
-/// Mean force on the wall over the last fifth of its way, while it moves [N/m].
+/// Mean force on the wall while it moves [N/m].
 double earth_pressure(const Settings& settings) {
   Simulation s(scene("rankine", settings));
-  double sum = 0;
-  int count = 0;
-  RunWatch watch;
-  watch.progress = [&](const Simulation& now) {
-    if (now.time() < 0.8 * now.scene().time.end) return;
-    sum += now.footings()[0].force(), ++count;
-  };
-  run_to_end(s, watch);
-  return sum / count;
+  return mean_force_on_footing(s, 0);
 }
 
 }  // namespace

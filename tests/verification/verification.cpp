@@ -39,7 +39,7 @@ std::string case_file(const std::string& name) {
 }
 
 std::string command(const Measurement& m) {
-  std::string text = "porosph run " + case_file(m.name);
+  std::string text = "porosph " + m.subcommand + " " + case_file(m.name);
   for (const std::string& setting : m.settings) text += " --set " + quoted(setting);
   return text;
 }
@@ -104,6 +104,18 @@ void run_to_end(Simulation& simulation, const RunWatch& watch) {
   const RunOutcome outcome = run(simulation, watch);
   INFO(outcome.message);
   REQUIRE((outcome.status == RunStatus::completed || outcome.status == RunStatus::equilibrium));
+}
+
+double mean_force_on_footing(Simulation& simulation, double begin) {
+  double sum = 0;
+  int count = 0;
+  RunWatch watch;
+  watch.progress = [&](const Simulation& now) {
+    if (now.time() - begin < 0.8 * (now.scene().time.end - begin)) return;
+    sum += now.footings()[0].force(), ++count;
+  };
+  run_to_end(simulation, watch);
+  return sum / count;
 }
 
 std::string percent(double fraction) {

@@ -17,12 +17,17 @@ Case scene(const std::string& name, const Settings& settings = {});
 /// Runs to the end, which must not be an instability.
 void run_to_end(Simulation& simulation, const RunWatch& watch = {});
 
+/// Runs to the end. Mean reaction of the case's one footing over the last fifth of the time from `begin` [s]
+/// on [N/m].
+double mean_force_on_footing(Simulation& simulation, double begin);
+
 /// One line of docs/verification.md.
 struct Measurement {
   std::string name;  ///< of the case, as for scene()
   Settings settings;
   std::string quantity, reference, resolution;
   std::string order = {};  ///< of convergence, where it was fitted
+  std::string subcommand = "run";
 };
 
 /// "0.12 %"

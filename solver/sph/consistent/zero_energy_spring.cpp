@@ -16,7 +16,7 @@ double strength(const FormulationCase& formulation, const Model& model, bool cut
   const bool elastic = std::ranges::none_of(model.soils, &Soil::may_yield);
   if (r.closed() || !model.visibility.everywhere()) return elastic ? more : little;
   if (!sides.empty()) return elastic ? usual : little;
-  return cut || model.is_pressed ? little : 0;
+  return cut || (model.is_pressed && elastic) ? little : 0;
 }
 
 }  // namespace
