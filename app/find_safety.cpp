@@ -71,6 +71,13 @@ void write_safety([[maybe_unused]] const Case& scene, const SafetyAnswer& answer
   write_safety_summary(folder / "safety.json", answer);
 }
 
+void write_curve(const SafetyCurve& curve, const std::filesystem::path& folder) {
+  write_safety_curve(folder / "curve.csv", curve);
+#ifdef POROSPH_HAS_RENDER
+  save_safety_over_setting(curve, folder / "curve.png");
+#endif
+}
+
 std::string tell(const SafetyAnswer& answer) {
   std::string text;
   const auto row = [&](const std::string& method, const std::string& factor, double seconds) {

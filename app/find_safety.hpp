@@ -8,10 +8,13 @@
 
 namespace porosph::app {
 
+/// Whatever the number of cores: which factors are tried, and with them the bracket, depend on it.
+inline constexpr int trials_at_a_time = 2;
+
 struct SafetyRequest {
   bool by_particles = true, by_limit_equilibrium = true;
   double bracket = 0.01;
-  int jobs = 1;
+  int jobs = trials_at_a_time;       ///< each on one core
   const HandedOver* from = nullptr;  ///< state that the particles begin with; null: that of the case's start
   bool quiet = false;                ///< not a line for each trial
 };
@@ -24,6 +27,9 @@ SafetyAnswer find_safety(const Case& scene, const SafetyRequest& request);
 /// Throws WriteError.
 void write_safety(const Case& scene, const SafetyAnswer& answer, const std::string& command,
                   const std::filesystem::path& folder);
+
+/// Table and picture of the factor over a setting, in a folder that exists. Throws WriteError.
+void write_curve(const SafetyCurve& curve, const std::filesystem::path& folder);
 
 /// A line for each method.
 std::string tell(const SafetyAnswer& answer);

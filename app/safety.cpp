@@ -1,6 +1,8 @@
 // porosph safety: the factor of safety of a case, by the particles and by limit equilibrium.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -21,6 +23,7 @@
 #include "solver/case/safety_obstacle.hpp"
 #include "solver/model/model.hpp"
 #include "solver/printable.hpp"
+#include "solver/sweep/sweep.hpp"
 #include "solver/water/transient_water.hpp"
 #include "vtk_io/run_folder/folder_lock.hpp"
 
@@ -33,9 +36,10 @@ namespace fs = std::filesystem;
 struct Options {
   std::string case_file, folder, method;
   std::vector<std::string> overrides;
+  std::optional<SweepAxis> vary;
   double bracket = 0.01;
   std::optional<double> at;  // s
-  int jobs = 1;
+  int jobs = trials_at_a_time;
   bool quiet = false, force = false;
   std::optional<double> then_run;  // factor; 0: the smallest at which it fails
 
@@ -46,6 +50,7 @@ struct Options {
 std::optional<Options> read_options(const Arguments& arguments) {
   Options o;
   double at = 0;
+  std::string vary;
   po::options_description options;
   options.add_options()("case", po::value(&o.case_file)->required(), "the case file")(
       "out", po::value(&o.folder)->value_name("DIR"),
@@ -58,8 +63,10 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "at", po::value(&at)->value_name("SECONDS"),
       "the time at which seepage over time is taken (default: the end)")(
       "set", po::value(&o.overrides)->value_name("KEY=VALUE"),
-      "replaces a setting of the case; may be given again");
-  add_jobs(options, o.jobs, "factors tried at a time");
+      "replaces a setting of the case; may be given again")(
+      "vary", po::value(&vary)->value_name("KEY=V1,V2,..."),
+      "the factor with each of these values of a setting, as a curve");
+  add_jobs(options, o.jobs, "factors tried at a time", trials_at_a_time);
   options.add_options()(
       "then-run", po::value<double>()->value_name("=FACTOR")->implicit_value(0, ""),
       "let it fail with its strength divided by this, or by the smallest factor at which it fails, and "
@@ -84,6 +91,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
   if (values.count("at") > 0) o.at = at;
   o.quiet = values.count("quiet") > 0, o.force = values.count("force") > 0;
   if (values.count("then-run") > 0) o.then_run = values["then-run"].as<double>();
+  if (values.count("vary") > 0) o.vary = parse_axis(vary);
+  if (o.vary && o.then_run) throw UsageError("--then-run is for one factor, not for a curve (--vary)");
   if (o.then_run && !o.by_particles())
     throw UsageError("--then-run needs strength reduction: --method both or strength-reduction");
   return o;
@@ -161,13 +170,67 @@ void flow_until(double time, Case& scene, bool quiet) {
                             water.richards().counts().steps, watch.seconds()));
 }
 
+/// Of the last stage; the body is that stage's. An interruption leaves it without an answer.
+SafetyAnswer find_safety_of(const Case& scene, const Options& o, Body& body) {
+  body = body_of(scene, o.quiet);
+  if (body.scene.water.mode == WaterMode::transient)
+    flow_until(o.at.value_or(scene.time.end), body.scene, o.quiet);
+  if (is_interrupted()) return {};
+  SafetyAnswer answer = find_safety(body.scene, {.by_particles = o.by_particles(),
+                                                 .by_limit_equilibrium = o.by_limit_equilibrium(),
+                                                 .bracket = o.bracket,
+                                                 .jobs = o.jobs,
+                                                 .from = body.state ? &*body.state : nullptr,
+                                                 .quiet = o.quiet});
+  if (!answer.limit_equilibrium && !o.by_particles())
+    throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
+  return answer;
+}
+
+/// The values of --vary. Throws UsageError where one is no number.
+std::vector<double> numbers_of(const SweepAxis& axis) {
+  std::vector<double> numbers;
+  for (const SweepValue& value : axis.values) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(value.label.c_str(), &end));
+    if (*end != 0 || !std::isfinite(numbers.back()))
+      throw UsageError(
+          fmt::format("--vary {}: {} is no number", printable(axis.title), printable(value.label)));
+  }
+  return numbers;
+}
+
+/// The factor over a setting.
+int follow_setting(const Case& scene, const fs::path& case_file, const Options& o, const fs::path& folder) {
+  SafetyCurve curve{scene.title, o.vary->title, numbers_of(*o.vary), {}};
+  for (const SweepValue& value : o.vary->values) {
+    std::vector<std::string> settings = o.overrides;
+    settings.insert(settings.end(), value.settings.begin(), value.settings.end());
+    const Case with_value = read_case(case_file, settings);
+    check_possible(last_stage(with_value), o);
+    warn(warnings_of(with_value));
+    Body body;
+    SafetyAnswer answer = find_safety_of(with_value, o, body);
+    if (is_interrupted()) return Exit::interrupted;
+    if (!o.quiet) say(stdout, fmt::format("{}\n{}", value.settings.front(), tell(answer)));
+    warn(answer.warnings);
+    if (answer.particles) answer.particles->mechanism.reset();
+    curve.answers.push_back(std::move(answer));
+  }
+  take_folder(folder, write_case(scene));
+  write_curve(curve, folder);
+  if (!o.quiet) say(stdout, folder.string() + "\n");
+  return Exit::done;
+}
+
 }  // namespace
 
 int safety_command(const Arguments& arguments) {
   const auto o = read_options(arguments);
   if (!o) return Exit::done;
-  const Case scene = read_case(find_case(o->case_file), o->overrides);
-  check_possible(last_stage(scene), *o);
+  const fs::path case_file = find_case(o->case_file);
+  const Case scene = read_case(case_file, o->overrides);
+  if (!o->vary) check_possible(last_stage(scene), *o);
   if (o->then_run && !scene.stages.empty())
     throw UsageError(
         "--then-run is for a case without stages: a [[stage]] that sets the soils' strength lets it fail");
@@ -178,20 +241,11 @@ int safety_command(const Arguments& arguments) {
   const std::string case_text = write_case(scene);
   const FolderLock lock(folder);
   if (!o->force) check_owner(folder, case_text, true);
+  if (o->vary) return follow_setting(scene, case_file, *o, folder);
   const std::vector<std::string> warnings = warnings_of(scene);
   warn(warnings);
-  Body body = body_of(scene, o->quiet);
-  if (body.scene.water.mode == WaterMode::transient)
-    flow_until(o->at.value_or(scene.time.end), body.scene, o->quiet);
-  if (is_interrupted()) return Exit::interrupted;
-  SafetyAnswer answer = find_safety(body.scene, {.by_particles = o->by_particles(),
-                                                 .by_limit_equilibrium = o->by_limit_equilibrium(),
-                                                 .bracket = o->bracket,
-                                                 .jobs = o->jobs,
-                                                 .from = body.state ? &*body.state : nullptr,
-                                                 .quiet = o->quiet});
-  if (!answer.limit_equilibrium && !o->by_particles())
-    throw UsageError("safety: nothing can slide: the ground is level wherever soil has a strength");
+  Body body;
+  SafetyAnswer answer = find_safety_of(scene, *o, body);
   if (is_interrupted()) return Exit::interrupted;
   const std::vector<std::string> doubts = answer.warnings;
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());

@@ -13,8 +13,6 @@
 
 namespace porosph::app {
 
-constexpr int trials_at_a_time = 2;
-
 Summary::Safety find_stage_safety(StagedRun& stages, const std::filesystem::path& folder, bool quiet) {
   const std::string name = stages.plan().name();
   Case scene = stages.plan().scene();
@@ -27,7 +25,6 @@ Summary::Safety find_stage_safety(StagedRun& stages, const std::filesystem::path
     answer = find_safety(scene, {.by_particles = true,
                                  .by_limit_equilibrium = limit_equilibrium_obstacle(scene).empty(),
                                  .bracket = stages.plan().table()->safety_bracket,
-                                 .jobs = trials_at_a_time,
                                  .from = &state,
                                  .quiet = quiet});
   } catch (const std::runtime_error& error) {

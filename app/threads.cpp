@@ -24,9 +24,10 @@ void use_threads(int wanted, std::size_t particles) {
   omp_set_num_threads(wanted > 0 ? wanted : useful_threads(particles));
 }
 
-void add_jobs(boost::program_options::options_description& options, int& jobs, const std::string& what) {
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
-  options.add_options()("jobs", boost::program_options::value(&jobs)->value_name("N")->default_value(cores),
+void add_jobs(boost::program_options::options_description& options, int& jobs, const std::string& what,
+              int usual) {
+  if (usual == 0) usual = static_cast<int>(std::thread::hardware_concurrency());
+  options.add_options()("jobs", boost::program_options::value(&jobs)->value_name("N")->default_value(usual),
                         (what + ", each on one core").c_str());
 }
 

@@ -108,6 +108,38 @@ void save_safety_curve(const SafetyAnswer& answer, const std::filesystem::path& 
   save_charts({.title = answer.title, .charts = {std::move(chart)}}, path);
 }
 
+void save_safety_over_setting(const SafetyCurve& curve, const std::filesystem::path& path) {
+  ChartSeries particles{
+      .label = "particles, middle of the bracket", .x = {}, .y = {}, .marker = Marker::circle};
+  std::vector<ChartSeries> of_surfaces;
+  for (std::size_t i = 0; i < curve.values.size(); ++i) {
+    const SafetyAnswer& answer = curve.answers[i];
+    if (answer.particles && answer.particles->stable_at > 0 && answer.particles->fails_at < never) {
+      particles.x.push_back(curve.values[i]);
+      particles.y.push_back((answer.particles->stable_at + answer.particles->fails_at) / 2);
+    }
+    for (const NamedSurface& s : slip_surfaces(answer)) {
+      auto series = std::ranges::find(of_surfaces, s.name, &ChartSeries::label);
+      if (series == of_surfaces.end())
+        series = of_surfaces.insert(series,
+                                    {.label = s.name,
+                                     .x = {},
+                                     .y = {},
+                                     .colour = surface_colours[of_surfaces.size() % surface_colours.size()],
+                                     .line = LineStyle::dashed});
+      series->x.push_back(curve.values[i]), series->y.push_back(s.surface.factor);
+    }
+  }
+  Chart chart{.title = "",
+              .x = {.title = curve.key},
+              .y = {.title = "factor of safety [-]"},
+              .series = {},
+              .references = {}};
+  if (!particles.x.empty()) chart.series.push_back(std::move(particles));
+  for (ChartSeries& series : of_surfaces) chart.series.push_back(std::move(series));
+  save_charts({.title = curve.title, .charts = {std::move(chart)}}, path);
+}
+
 void save_mechanism(const Case& scene, const SafetyAnswer& answer, const std::filesystem::path& path) {
   const bool failed = answer.particles && answer.particles->mechanism;
   ContourFigure figure = failed ? strain_figure(scene, *answer.particles) : soil_figure(scene);

@@ -11,6 +11,10 @@ namespace porosph {
 /// the factors of limit equilibrium. Throws as save_charts.
 void save_safety_curve(const SafetyAnswer& answer, const std::filesystem::path& path);
 
+/// The factor over a setting's value: the middle of each bracket, and the factors of limit equilibrium.
+/// Throws as save_charts.
+void save_safety_over_setting(const SafetyCurve& curve, const std::filesystem::path& path);
+
 /// Plastic strain of the trial that failed at the smallest factor, the slip surfaces drawn over it; without
 /// such a trial the soils, with the slip surfaces. Throws as save_contours.
 void save_mechanism(const Case& scene, const SafetyAnswer& answer, const std::filesystem::path& path);

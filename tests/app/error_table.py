@@ -239,7 +239,8 @@ WARNED_OF = [
                                                        "[[0, 2], [4, 2], [4, 2.6], [0, 2.6]]") + "[[boundary]]"),
     ("a lattice that does not fit", "spacing = 0.5", "spacing = 0.7\narrangement = \"lattice\""),
     ("water below all soil", "[time]", "[[water.stretches]]\nx_to = 2\nlevel = -1\n[time]"),
-    ("a footing with few neighbours around its edge", "[[boundary]]", STRENGTH + FOOTING + "[[boundary]]"),
+    ("a footing with few neighbours around its edge", 'spacing = 0.5\n[[soil]]\n',
+     "spacing = 0.5\nsmoothing_ratio = 1\n" + FOOTING + "[[soil]]\n" + STRENGTH),
     ("a time step that is too large", "end = 0.1", "end = 0.1\ncourant = 1.2"),
 ]
 # What is wrong, the command, and what is put into files beforehand.
@@ -272,6 +273,8 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
+    ("a curve over something that is no number", "safety case.toml --vary soil.sand.poissons_ratio=0.2,much", {}),
+    ("a runout of a curve", "safety case.toml --vary soil.sand.poissons_ratio=0.2,0.3 --then-run", {}),
     ("a failure without strength reduction", "safety case.toml --method limit-equilibrium --then-run", {}),
     ("an element test of a soil that is not there", "element case.toml clay", {}),
     ("an element test that there is not", "element case.toml --test triaxial", {}),

@@ -59,6 +59,26 @@ bool exists(const Workplace& place, const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("the factor of safety over a setting is a curve", "[safety]") {
+  const Workplace place;
+  place.write("slope.toml", slope);
+  REQUIRE(place.porosph("safety slope.toml --bracket 0.05 --out curve --vary soil.loam.cohesion=5e3,10e3")
+              .status == 0);
+  CHECK(exists(place, "curve/curve.png"));
+  const std::string table = text_of(place.folder() / "curve/curve.csv");
+  std::istringstream lines(table);
+  std::string head, weak, strong;
+  std::getline(lines, head), std::getline(lines, weak), std::getline(lines, strong);
+  CHECK(head == "soil.loam.cohesion,stable_at,fails_at,bishop,spencer,spencer_any_shape");
+  const auto number = [](const std::string& line, int column) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+    return std::stod(cell);
+  };
+  for (const int column : {0, 1, 2, 3, 4}) CHECK(number(strong, column) > 1.1 * number(weak, column));
+}
+
 TEST_CASE("a report takes what safety found as a part") {
   const Workplace place;
   place.write("slope.toml", slope);

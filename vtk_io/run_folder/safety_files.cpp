@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "solver/printable.hpp"
@@ -113,6 +114,22 @@ void write_trials(const std::filesystem::path& file, const StrengthReduction& fo
   for (const StrengthTrial& t : found.trials)
     csv += cells({t.factor, t.displacement, t.unbalanced, static_cast<double>(t.steps)}) + "," +
            std::string(words_of(t.end)) + "\n";
+  write_file(file, csv);
+}
+
+void write_safety_curve(const std::filesystem::path& file, const SafetyCurve& curve) {
+  std::string csv = csv_line({curve.key, "stable_at", "fails_at", "bishop", "spencer", "spencer_any_shape"});
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < curve.values.size(); ++i) {
+    const SafetyAnswer& a = curve.answers[i];
+    const auto& surfaces = a.limit_equilibrium;
+    csv += cells({curve.values[i], a.particles && a.particles->stable_at > 0 ? a.particles->stable_at : none,
+                  a.particles && a.particles->fails_at < never ? a.particles->fails_at : none,
+                  surfaces ? surfaces->bishop.factor : none,
+                  surfaces && surfaces->spencer ? surfaces->spencer->factor : none,
+                  surfaces && surfaces->general ? surfaces->general->factor : none}) +
+           "\n";
+  }
   write_file(file, csv);
 }
 

@@ -52,6 +52,16 @@ std::string disagreement(const SafetyAnswer& answer);
 void write_trials(const std::filesystem::path& file, const StrengthReduction& found);
 /// surface, x, y: the corners of each slip surface. Throws WriteError.
 void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& answer);
+/// What was found with each value of a setting.
+struct SafetyCurve {
+  std::string title, key;  ///< "water.level"
+  std::vector<double> values;
+  std::vector<SafetyAnswer> answers;  ///< one for each
+};
+/// The bracket and the factor of each kind of slip surface, by the setting's value; nan where there is none.
+/// Throws WriteError.
+void write_safety_curve(const std::filesystem::path& file, const SafetyCurve& curve);
+
 /// Both numbers, the bracket and what they took. Throws WriteError.
 void write_safety_summary(const std::filesystem::path& file, const SafetyAnswer& answer);
 
