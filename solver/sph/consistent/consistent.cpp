@@ -179,7 +179,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
-    flow_.loose().walls().remember_step(dt);
+    flow_.loose().walls().stepped(dt);
     flow_.count_work(reference_, model_.particles, dt);
     if (friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(model_, kernels_, arrays_);
