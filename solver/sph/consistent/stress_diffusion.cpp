@@ -11,6 +11,7 @@ namespace {
 constexpr double per_strain = 10;  // D dt over h^2
 constexpr double most = 0.1;       // of that in a step
 constexpr double negligible = 1e-6;
+constexpr int steps_between = 2;          // what they shear is diffused at once
 constexpr int steps_between_counts = 16;  // of the energy
 
 }  // namespace
@@ -42,8 +43,9 @@ bool StressDiffusion::take_strain() {
 }
 
 double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& c) {
-  const bool counted = steps_++ % steps_between_counts == 0;
-  if (!take_strain()) return 0;
+  const bool due = steps_ % steps_between == 0, counted = steps_ % steps_between_counts == 0;
+  ++steps_;
+  if (!due || !take_strain()) return 0;
   Particles& p = model.particles;
   const std::int32_t tiles = c.reference.stencils->tiles();
 #pragma omp parallel for schedule(static)
@@ -59,7 +61,7 @@ double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, co
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a)
     if (near_[a]) p.stress[a] = p.stress[a] + change_[a];
-  return counted ? steps_between_counts * (before - energy()) : 0;
+  return counted ? steps_between_counts / steps_between * (before - energy()) : 0;
 }
 
 StressDiffusionView StressDiffusion::view() {

@@ -25,8 +25,8 @@ class StressDiffusion {
   void take(const ReferenceConfiguration& reference, const Model& model, const LooseParticles& loose,
             std::span<const Mat2> correction);
 
-  /// Diffuses what the last step has sheared. Returns what the elastic energy has lost [J/m], counted in one
-  /// of some steps, for all of them.
+  /// Diffuses what the last steps have sheared, in one of some steps. Returns what the elastic energy has
+  /// lost [J/m], counted in one of some steps, for all of them.
   double apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays);
 
   double* sheared() { return sheared_.data(); }  ///< as in FlowView
