@@ -115,7 +115,7 @@ bool ConsistentDynamics::strangers_are_near() {
   const double looked_at_after = flow_.has_flowed() ? 0.1 : 0.05;
   if (since_.travel <= looked_at_after * model_.spacing) return false;
   since_.travel = 0;
-  const bool found = surroundings_.strangers_are_near(model_, reference_.stencils);
+  const bool found = surroundings_.strangers_are_near(model_, reference_.stencils, reference_.points);
   counts.searches = surroundings_.searches();
   return found;
 }

@@ -5,7 +5,7 @@
 
 #include "solver/space/parallel.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
-#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/kernels/pair_weights.hpp"
 
 namespace porosph {
 namespace {
@@ -65,8 +65,9 @@ double energy_beyond_linear(const Model& model) {
 }
 
 void FlowingSoil::settle(Model& model, const ReferenceConfiguration& reference) {
-  has_flowed_ = true;
+  has_flowed_ = has_flowed_ || diffusion_.has_sheared();
   even_out(model, reference);
+  diffusion_.forget_shear();
   update_density(model);
 }
 
@@ -81,40 +82,68 @@ void FlowingSoil::update_density(Model& model) const {
   }
 }
 
-/// Inside the soil down the gradient of sum V W (Lind et al. 2012), not near its surface; and pairs that are
-/// nearer than half of the spacing apart, also from their images. Neighbours are those of the reference that
+namespace {
+
+/// Where a particle is to move, by where its neighbours are.
+struct Crowd {
+  Vec2 gradient = Vec2::Zero();  ///< of sum V W [1/m]
+  Vec2 apart = Vec2::Zero();     ///< from those that are too near [m]
+  bool is_inside = false;        ///< the soil, not near its surface
+};
+
+Crowd crowd_around(std::int32_t a, std::span<const std::int32_t> neighbours, std::span<const Vec2> points,
+                   const WeighedPoints<2>& weighed, double nearest) {
+  constexpr double inside = 0.95, share = 0.1;
+  const std::span<const double> weights = weights_of(a, neighbours, weighed);
+  Crowd crowd;
+  Mat2 sum = Mat2::Zero();
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const Vec2 way = points[neighbours[k]] - points[a], g = weights[k] * way;
+    crowd.gradient += g, sum += g * way.transpose();
+    const double squared = way.squaredNorm();
+    if (squared > 0 && squared < nearest * nearest)
+      crowd.apart -= share * (nearest / std::sqrt(squared) - 1) * way;
+  }
+  const double half = 0.5 * (sum(0, 0) - sum(1, 1));
+  const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::sqrt(half * half + sum(0, 1) * sum(0, 1));
+  crowd.is_inside = least > inside;
+  return crowd;
+}
+
+}  // namespace
+
+/// Soil that has flowed since the last reference: inside it down the gradient of sum V W (Lind et al. 2012),
+/// not near its surface; and pairs that are nearer than half of the spacing apart, also from their images.
+/// Elastic strain leaves particles where they are in the soil. Neighbours are those of the reference that
 /// ends: what is near to become one, at the rim of the kernel, hardly counts.
 void FlowingSoil::even_out(Model& model, const ReferenceConfiguration& r) {
-  constexpr double strength = 0.5, farthest = 0.1, inside = 0.95, share = 0.1;
+  constexpr double strength = 0.5;
   Particles& p = model.particles;
-  const CubicSpline<2> kernel(model.smoothing_length);
   const std::size_t n = p.size();
   std::vector<Vec2> moves(n, Vec2::Zero()), points = p.position;
   r.ghosts.fill_positions(points);
   std::vector<double> volumes(n);
   for (std::size_t a = 0; a < n; ++a) volumes[a] = p.volume(a) / p.fill[a];
   r.ghosts.fill<Mirrors::scalar>(volumes);
-  const double dx = model.spacing, nearest = 0.5 * dx, h2 = model.smoothing_length * model.smoothing_length;
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    if (!model.soils[p.soil[a]].flows()) continue;
-    Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
-    Mat2 sum = Mat2::Zero();
-    r.stencils.for_neighbours(static_cast<std::int32_t>(a), [&](std::int32_t b, const PairGeometry&) {
-      const Vec2 way = points[b] - points[a];
-      const double distance = way.norm();
-      const Vec2 g = -volumes[b] * kernel.slope(distance) * way;
-      crowd += g, sum += g * way.transpose();
-      if (distance > 0 && distance < nearest) apart -= share * (nearest / distance - 1) * way;
-    });
-    const double half = 0.5 * (sum(0, 0) - sum(1, 1));
-    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::sqrt(half * half + sum(0, 1) * sum(0, 1));
-    if (least > inside) {
-      const Vec2 move = -strength * h2 * crowd;
+  const WeighedPoints<2> weighed{points.data()->data(), volumes.data(),
+                                 CubicSpline<2>(model.smoothing_length)};
+  const double farthest = 0.1 * model.spacing, h2 = model.smoothing_length * model.smoothing_length;
+#pragma omp parallel
+  {
+    std::vector<std::int32_t> room;
+#pragma omp for schedule(static)
+    for (std::size_t a = 0; a < n; ++a) {
+      const bool has_flowed = diffusion_.has_sheared(a) || loose_.is(a);
+      if (!has_flowed || !model.soils[p.soil[a]].flows()) continue;
+      const auto number = static_cast<std::int32_t>(a);
+      const Crowd crowd =
+          crowd_around(number, r.stencils.neighbours(number, room), points, weighed, 0.5 * model.spacing);
+      moves[a] = crowd.apart;
+      if (!crowd.is_inside) continue;
+      const Vec2 move = -strength * h2 * crowd.gradient;
       const double far = move.norm();
-      apart += far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move;
+      moves[a] += far > farthest ? Vec2(move * (farthest / far)) : move;
     }
-    moves[a] = apart;
   }
   for (std::size_t a = 0; a < n; ++a) {
     const Vec2 move = short_of_walls(model, p.position[a], moves[a]);

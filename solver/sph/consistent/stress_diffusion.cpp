@@ -11,7 +11,6 @@ namespace {
 constexpr double per_strain = 10;  // D dt over h^2
 constexpr double most = 0.1;       // of that in a step
 constexpr double negligible = 1e-6;
-constexpr int steps_between = 2;          // what they shear is diffused at once
 constexpr int steps_between_counts = 16;  // of the energy
 
 }  // namespace
@@ -36,8 +35,9 @@ bool StressDiffusion::take_strain() {
   bool any = false;
   for (std::size_t a = 0; a < sheared_.size(); ++a) {
     const double share = per_strain * std::exchange(sheared_[a], 0);
-    diffusivity_[a] = share > negligible && soil_[a] >= 0 ? share * length_squared_ : 0;
-    any = any || diffusivity_[a] > 0;
+    const bool shears = share > negligible && soil_[a] >= 0;
+    diffusivity_[a] = shears ? share * length_squared_ : 0;
+    has_sheared_[a] |= shears, any = any || shears;
   }
   return any;
 }
@@ -76,6 +76,7 @@ StressDiffusionView StressDiffusion::view() {
 
 void StressDiffusion::visit(StateArchive& state) {
   state.array("sheared", sheared_);
+  state.array("has_sheared", has_sheared_);
   state.value("diffusion_steps", steps_);
 }
 
