@@ -442,12 +442,20 @@ static void leave_one_level(toml::table& root, const std::vector<Override>& appl
           if (other != way) water->erase(other);
 }
 
+/// Without gravity there are no keys of what it does.
+static void leave_out_weight(toml::table& root) {
+  toml::table* loading = root.get_as<toml::table>("loading");
+  if (loading == nullptr || (*loading)["gravity_applied"].value<bool>() != false) return;
+  for (const char* key : {"k0_stress", "k0", "horizontal"}) loading->erase(key);
+}
+
 Case with_settings(const Case& scene, const std::vector<std::string>& settings,
                    std::vector<SettingFault>& faults) {
   toml::table root = toml::parse(write_case(scene));
   std::vector<std::string> wrong;
   const std::vector<Override> applied = apply_overrides(root, settings, wrong);
   leave_one_level(root, applied);
+  leave_out_weight(root);
   Case changed;
   Report report("the case with this stage", root, applied);
   Reader(root, report).read(changed);

@@ -59,6 +59,25 @@ TEST_CASE("a case without stages is its own and only stage") {
   CHECK(plan.scene().soils[0].id == -1);
 }
 
+TEST_CASE("a stage without gravity lets the soil rise to where it was drawn") {
+  Case scene = resting_column(8, 1e9);
+  scene.loading.k0_stress = GENERATE(false, true);
+  StageCase off = stage("off");
+  off.set = {"loading.gravity_applied = false"};
+  scene.stages = {off};
+  const auto last = run_stages(scene);
+  const double settlement = 18e3 * 4 * 4 / 2 / constrained_modulus(scene.soils[0]);
+  const Particles& p = last->model().particles;
+  double most = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, std::abs(p.stress[i].yy));
+  CHECK(most < 1e-3 * 18e3 * 4);
+  const double risen = last->largest_displacement();
+  if (scene.loading.k0_stress)
+    CHECK(risen == Approx(settlement).epsilon(0.05));
+  else
+    CHECK(risen < 1e-3 * settlement);
+}
+
 TEST_CASE("a stage that changes nothing leaves the soil at rest") {
   const double E = GENERATE(1e9, 1e11);
   Case scene = resting_column(8, E);
