@@ -149,6 +149,10 @@ name = "plate"
 from = [2, 2]
 to = [4, 2]
 force = 1e3
+[[boundary]]
+kind = "fixed"
+from = [0, 0]
+to = [8, 0]
 [time]
 end = 1
 )";
