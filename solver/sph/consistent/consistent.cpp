@@ -53,7 +53,7 @@ void ConsistentDynamics::prepare() {
   else if (flow_.active())
     flow_.settle(model_, surroundings_);
   rebuild_reference();
-  fluxes_.take_velocities(reference_, model_.particles);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
   strain_all(0);
   since_ = {};
   ++counts.refreshes;
@@ -82,6 +82,7 @@ void ConsistentDynamics::rebuild_reference() {
   if (friction_.active()) friction_.take(reference_, model_);
   fluxes_ = Fluxes(reference_, model_, spring_.active(), flow_.active() ? &flow_.loose() : nullptr);
   if (flow_.active()) fluxes_.keep_piola_of(flow_.wall_work().particles_at_walls());
+  of_excess_.reset();
   connect_arrays();
 }
 
@@ -163,7 +164,7 @@ Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
-  fluxes_.take_velocities(reference_, model_.particles);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
     std::array<PlaneTensor, PairStencils::tile> rate;
@@ -177,6 +178,41 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
   }
 }
 
+void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
+  const Particles& p = model_.particles;
+  if (!of_excess_) of_excess_.emplace(reference_, model_, false, flow_.active() ? &flow_.loose() : nullptr);
+  of_excess_->take_pressures_alone(reference_, p.fill, fluxes_, excess);
+  ConsistentArrays arrays = arrays_;
+  of_excess_->connect(arrays, reference_);
+  fluxes_.deformation().connect(arrays.state.deformation);
+  arrays.motion.pressure = nullptr;
+  arrays.flow.viscosity = nullptr;
+  arrays.control.viscosity = 0;
+  arrays.gravity[0] = arrays.gravity[1] = 0;
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
+    kernels_.accelerate(arrays, tile, out.data()->data());
+}
+
+/// The velocities of the particles take their place again for the next forces.
+void ConsistentDynamics::volume_rates(std::span<const Vec2> velocities, std::span<double> out) {
+  fluxes_.take_velocities(reference_, velocities);
+  const auto rate_of = [&](std::size_t a, const Mat2& rate) {
+    return (rate * inverse(fluxes_.deformation(a))).trace();
+  };
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
+    std::array<PlaneTensor, PairStencils::tile> rate;
+    kernels_.rates(arrays_, tile, rate.data()->data());
+    const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
+      out[a] = rate_of(a, matrix(rate[a - first]));
+  }
+  if (flow_.active())
+    for (const auto& [a, rate] : flow_.rates_at_walls(reference_, velocities)) out[a] = rate_of(a, rate);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
+}
+
 void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
     flow_.loose().walls().remember_step(dt);
@@ -184,7 +220,7 @@ void ConsistentDynamics::strain(double dt) {
     if (friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(model_, kernels_, arrays_);
   }
-  fluxes_.take_velocities(reference_, model_.particles);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
   const double at_walls =
       flow_.active() ? flow_.deform_at_walls(reference_, model_.particles, dt, fluxes_.deformation()) : 0;
   const LargestChange largest = strain_all(dt);
@@ -216,7 +252,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
     rebuild_reference();
     p.position.swap(positions), p.density.swap(densities);
     connect_arrays();
-    fluxes_.take_velocities(reference_, p);
+    fluxes_.take_velocities(reference_, p.velocity);
   }
   surroundings_.visit(state, model_);
   fluxes_.visit(state, reference_);

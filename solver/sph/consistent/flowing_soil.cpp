@@ -149,11 +149,12 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
 }
 
-Mat2 FlowingSoil::own_gradient(const ReferenceConfiguration& r, const Particles& p, std::int32_t a) const {
+Mat2 FlowingSoil::own_gradient(const ReferenceConfiguration& r, std::span<const Vec2> v,
+                               std::int32_t a) const {
   const auto n = static_cast<std::int32_t>(r.particles());
   Mat2 sum = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    if (b < n) sum += (p.velocity[b] - p.velocity[a]) * Eigen::RowVector2d(g.x, g.y);
+    if (b < n) sum += (v[b] - v[a]) * Eigen::RowVector2d(g.x, g.y);
   });
   return sum * correction_[a].transpose();
 }
@@ -178,11 +179,22 @@ double FlowingSoil::deform_at_walls(const ReferenceConfiguration& r, const Parti
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     if (loose_.is(a)) continue;
-    const Mat2 f = deformation[a] + dt * own_gradient(r, p, a);
+    const Mat2 f = deformation[a] + dt * own_gradient(r, p.velocity, a);
     deformation.set(a, f);
     largest = std::max(largest, (f - Mat2::Identity()).cwiseAbs().maxCoeff());
   }
   return largest;
+}
+
+std::vector<std::pair<std::int32_t, Mat2>> FlowingSoil::rates_at_walls(const ReferenceConfiguration& r,
+                                                                       std::span<const Vec2> v) const {
+  std::vector<std::pair<std::int32_t, Mat2>> rates;
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(r.particles()); ++a)
+    if (loose_.is(a)) rates.emplace_back(a, Mat2::Zero());
+  if (!has_flowed_) return rates;
+  for (const std::int32_t a : at_walls_)
+    if (!loose_.is(a)) rates.emplace_back(a, own_gradient(r, v, a));
+  return rates;
 }
 
 void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particles& p, PlaneTensors& flux,
@@ -191,7 +203,7 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     if (!blind_[a]) continue;
-    flux.set(a, flux[a] + viscosity_[a] * (gradient_with_walls(r, p, a) - own_gradient(r, p, a)));
+    flux.set(a, flux[a] + viscosity_[a] * (gradient_with_walls(r, p, a) - own_gradient(r, p.velocity, a)));
     if (!r.listed[a]) continue;
     for (int i = 0; i < 4; ++i) records[a].q[i] = flux.component[i][a];
   }
@@ -204,7 +216,7 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     // The kernels have summed this particle's half of each pair; the image's own half is left out there.
-    const Mat2 gradient = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+    const Mat2 gradient = blind_[a] ? own_gradient(r, p.velocity, a) : gradient_with_walls(r, p, a);
     Vec2 half = Vec2::Zero();
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
       if (b < n || !is_fixed_image(r, b)) return;
@@ -225,7 +237,7 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
   std::vector<Mat2> gradient(n);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a)
-    gradient[a] = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+    gradient[a] = blind_[a] ? own_gradient(r, p.velocity, a) : gradient_with_walls(r, p, a);
   sample_.begin(p);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {

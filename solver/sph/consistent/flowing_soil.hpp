@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/particles/state.hpp"
@@ -37,6 +38,10 @@ class FlowingSoil {
   /// |F - I| there. In soil that has flowed only.
   double deform_at_walls(const ReferenceConfiguration& reference, const Particles& particles, double dt,
                          PlaneTensors& deformation) const;
+
+  /// dF/dt of the particles whose F the steps do not carry: at fixed walls by the soil alone, else none.
+  std::vector<std::pair<std::int32_t, Mat2>> rates_at_walls(const ReferenceConfiguration& reference,
+                                                            std::span<const Vec2> velocities) const;
 
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
@@ -82,7 +87,7 @@ class FlowingSoil {
  private:
   void update_density(Model& model) const;
   void even_out(Model& model, const SeenNeighbours& seen);
-  Mat2 own_gradient(const ReferenceConfiguration& reference, const Particles& particles,
+  Mat2 own_gradient(const ReferenceConfiguration& reference, std::span<const Vec2> velocities,
                     std::int32_t a) const;
   Mat2 gradient_with_walls(const ReferenceConfiguration& reference, const Particles& particles,
                            std::int32_t a) const;
