@@ -45,8 +45,8 @@ void check_constant(const Case& c, Issues& issues) {
 
 void check_transient(const Case& c, Issues& issues) {
   if (c.water.coupling.motion == WaterMotion::dynamic)
-    issues.push_back({"water.motion",
-                      "must be \"quasi_static\" or \"automatic\" with water.mode = \"transient\""});
+    issues.push_back(
+        {"water.motion", "must be \"quasi_static\" or \"automatic\" with water.mode = \"transient\""});
   if (c.water.coupling.motion == WaterMotion::automatic && c.water.transient.rigid)
     issues.push_back({"water.motion", "must be \"quasi_static\" with water.rigid_soil: nothing fails"});
   if (c.loading.k0_stress)

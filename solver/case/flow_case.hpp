@@ -44,6 +44,8 @@ enum class RetentionModel {
 struct CouplingCase {
   static constexpr double incompressible = std::numeric_limits<double>::infinity();
   WaterMotion motion = WaterMotion::quasi_static;
+  double motion_time = 20;       ///< automatic: of the run after equilibrium is lost [s]
+  double motion_interval = 0.5;  ///< between frames and rows of the history in it [s]
   double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
   double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
   double stabilisation = 0.25;  ///< a of tau = a gamma_w dx^2 / M: see PressureStabilisation [-]

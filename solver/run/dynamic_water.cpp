@@ -100,8 +100,7 @@ void DynamicWater::prepare() {
   const bool renewed = dynamics_.counts.refreshes != refreshes;
   if (renewed) {
     const Particles& p = model_.particles;
-    for (std::size_t a = 0; a < p.size(); ++a)
-      of_.start_volume[a] += p.volume(a) - p.mass[a] / density[a];
+    for (std::size_t a = 0; a < p.size(); ++a) of_.start_volume[a] += p.volume(a) - p.mass[a] / density[a];
     if (refreshes > 0) renew();
   }
   if (renewed || !surface_is_known_) measure_surface();
@@ -134,8 +133,8 @@ void DynamicWater::take_stencils() {
   stencils_.still_inflow.assign(n, 0);
   if (!stencils_.drainage) return;
   const std::vector<double> zero(n, 0);
-  stencils_.drainage->flow.assemble(zero, stencils_.drainage->faces, DarcyFlow::Slope::secant,
-                                    stencils_.flow, stencils_.still_inflow);
+  stencils_.drainage->flow.assemble(zero, stencils_.drainage->faces, DarcyFlow::Slope::secant, stencils_.flow,
+                                    stencils_.still_inflow);
 }
 
 /// The force of a uniform pressure is the soil's free surface; what that force does to the volumes is what
@@ -194,9 +193,8 @@ void DynamicWater::find_inflow() {
   stencils_.flow.multiply(of_.head, work_.inflow);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < of_.head.size(); ++a)
-    work_.inflow[a] = fixed_[a] ? 0
-                                  : stencils_.still_inflow[a] - work_.inflow[a] -
-                                        of_.surface[a] * of_.head[a];
+    work_.inflow[a] =
+        fixed_[a] ? 0 : stencils_.still_inflow[a] - work_.inflow[a] - of_.surface[a] * of_.head[a];
 }
 
 double DynamicWater::held_water(std::size_t a) const {
@@ -212,9 +210,8 @@ void DynamicWater::make_right_side(Kick kick, double dt, std::span<const Vec2> a
   find_inflow();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a)
-    work_.right_side[a] = fixed_[a] ? 0
-                                      : of_.water[a] - held_water(a) +
-                                            dt * (work_.inflow[a] - p.volume(a) * work_.rate[a]);
+    work_.right_side[a] =
+        fixed_[a] ? 0 : of_.water[a] - held_water(a) + dt * (work_.inflow[a] - p.volume(a) * work_.rate[a]);
 }
 
 void DynamicWater::solve() {

@@ -107,7 +107,7 @@ class DynamicWater {
   Model& model_;
   Dynamics& dynamics_;
   double unit_weight_;
-  std::vector<double> inertia_;  ///< gamma_w / rho of each soil [m/s2]
+  std::vector<double> inertia_;          ///< gamma_w / rho of each soil [m/s2]
   std::vector<std::uint8_t> drains_;     ///< of the particles: once they lie at a free surface
   std::vector<std::uint8_t> saturated_;  ///< of the particles; empty: all
   std::vector<std::uint8_t> fixed_;      ///< of the particles: they keep their head, 0

@@ -200,7 +200,13 @@ class Recorder {
       if (watch_.history) watch_.history(history_row(s_));
     }
   }
-  void record_what_is_due() { record(frames_.due(s_.step()), rows_.due(s_.step())); }
+  void record_what_is_due() {
+    if (s_.follows_flow() && s_.water_in_motion() != nullptr) {
+      const bool due = s_.motion_is_due();
+      return record(due, due);
+    }
+    record(frames_.due(s_.step()), rows_.due(s_.step()));
+  }
 
  private:
   Simulation& s_;

@@ -162,6 +162,22 @@ void Simulation::time_by_flow() {
   clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
 }
 
+/// When so many of its intervals have passed since the soil failed.
+std::int64_t Simulation::motion_tick(double intervals) const {
+  return std::llround((failed_at_ + intervals * scene_.water.coupling.motion_interval) / clock_.dt);
+}
+
+bool Simulation::motion_is_due() const {
+  if (!follows_flow() || !in_motion_) return false;
+  return clock_.step ==
+         motion_tick(std::round((time() - failed_at_) / scene_.water.coupling.motion_interval));
+}
+
+void Simulation::end_after_motion() {
+  const double end = failed_at_ + scene_.water.coupling.motion_time;
+  clock_.last_step = std::min<std::int64_t>(clock_.last_step, std::llround(end / clock_.dt));
+}
+
 /// The next time at which something is written, as Schedule counts it.
 std::int64_t Simulation::next_tick_due() const {
   const OutputCase& output = scene_.output;
@@ -170,6 +186,11 @@ std::int64_t Simulation::next_tick_due() const {
     if (const std::int64_t tick = std::llround(time / clock_.dt); tick > clock_.step)
       due = std::min(due, tick);
   };
+  if (in_motion_) {
+    const double interval = scene_.water.coupling.motion_interval;
+    const std::int64_t next = motion_tick(std::floor((time() - failed_at_) / interval + 1e-9) + 1);
+    return std::min(due, std::max(next, clock_.step + 1));
+  }
   for (const double interval : {output.interval, output.history_interval})
     if (interval > 0) offer((std::floor(time() / interval + 1e-9) + 1) * interval);
   for (const double time : output.times) offer(time);
@@ -219,6 +240,7 @@ double Simulation::crossing_time() const {
 void Simulation::begin_motion() {
   failed_at_ = time();
   in_motion_ = true;
+  end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
   if (seepage_) {
     const Particles& p = model_.particles;
@@ -445,7 +467,9 @@ void Simulation::visit_motion(StateArchive& state) {
   state.value("longest_flow_step", longest_flow_step_);
   if (!in_motion_) return;
   moving_water_->visit(state);
-  if (state.restoring()) moving_water_->take_over();
+  if (!state.restoring()) return;
+  moving_water_->take_over();
+  if (follows_flow()) end_after_motion();
 }
 
 void Simulation::visit_remembered(StateArchive& state, std::optional<State>& remembered) const {

@@ -58,7 +58,7 @@ class Simulation {
   double step_length() const { return clock_.dt * static_cast<double>(clock_.ticks); }  ///< of the next [s]
   /// Steps so far in which the soil moved with its inertia.
   std::int64_t moves() const { return follows_flow() ? clock_.moves : clock_.step; }
-  double courant() const { return clock_.courant; }   ///< the case's, or less where disorder requires it
+  double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -73,8 +73,11 @@ class Simulation {
   std::optional<double> drained() const;
   /// Whether time is counted by a flow, whose steps are as long as it allows.
   bool follows_flow() const { return consolidation_ || seepage_; }
-  /// Whether the soil is at rest all the while in that flow: until it fails, where the case goes on from there.
+  /// Whether the soil is at rest all the while in that flow: until it fails, where the case goes on from
+  /// there.
   bool rests_in_flow() const { return follows_flow() && !in_motion_; }
+  /// Whether a frame and a row are due now of soil that has failed and moves.
+  bool motion_is_due() const;
   double failed_at() const { return failed_at_; }  ///< when it did; never: it has not [s]
 
   /// Accelerations at the present instant, damping left out [m/s2].
@@ -124,6 +127,8 @@ class Simulation {
   double crossing_time() const;
   void begin_motion();
   void choose_ticks();
+  std::int64_t motion_tick(double intervals) const;
+  void end_after_motion();
   void advance_in_motion();
   void sum_forces();
   void show_excess();
@@ -161,8 +166,8 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   std::unique_ptr<Consolidation> consolidation_;
   std::shared_ptr<TransientWater> seepage_;
-  std::unique_ptr<DynamicWater> moving_water_;  ///< null where the soil never moves with its own
-  bool in_motion_ = false;                      ///< it does now
+  std::unique_ptr<DynamicWater> moving_water_;            ///< null where the soil never moves with its own
+  bool in_motion_ = false;                                ///< it does now
   double failed_at_ = never, longest_flow_step_ = never;  ///< [s]
   Settling settling_;
   std::vector<Probe> probes_;

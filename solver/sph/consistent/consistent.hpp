@@ -73,11 +73,11 @@ class ConsistentDynamics final : public Dynamics {
   ReferenceConfiguration reference_;
   OwnSides own_sides_;
   ZeroEnergySpring spring_;
-  Fluxes fluxes_;               ///< since the reference
+  Fluxes fluxes_;                    ///< since the reference
   std::optional<Fluxes> of_excess_;  ///< those of an excess pressure alone, once they are asked for
-  FlowingSoil flow_;            ///< of no effect in elastic soil
-  std::vector<double> yields_;  ///< of particles: as in SoilStateView; empty where nobody asks
-  ConsistentArrays arrays_{};   ///< all these, as the kernels see them
+  FlowingSoil flow_;                 ///< of no effect in elastic soil
+  std::vector<double> yields_;       ///< of particles: as in SoilStateView; empty where nobody asks
+  ConsistentArrays arrays_{};        ///< all these, as the kernels see them
   SinceReference since_;
 };
 

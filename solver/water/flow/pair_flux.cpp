@@ -38,7 +38,13 @@ class Builder {
  public:
   Builder(const std::vector<SoilCase>& soils, const HydraulicOutline& outline, const Particles& p,
           double spacing, bool as_drawn)
-      : as_drawn_(as_drawn), soils_(soils), outline_(outline), p_(p), spacing_(spacing), kernel_(spacing), points_(p.position) {
+      : as_drawn_(as_drawn),
+        soils_(soils),
+        outline_(outline),
+        p_(p),
+        spacing_(spacing),
+        kernel_(spacing),
+        points_(p.position) {
     ghosts_ = Ghosts(outline.stretches, 0, outline.stretches.size(), kernel_.support(), points_);
     for (std::size_t a = 0; a < p.size(); ++a) cell_.push_back(p.volume(a) / p.fill[a]);
     ghosts_.fill<Mirrors::scalar>(cell_);

@@ -30,8 +30,7 @@ struct KrylovResult {
 /// alg. 9.1.
 enum class ToleranceOf { start, right_side };
 KrylovResult conjugate_gradients(const SparseRows& a, std::span<const double> b, std::span<double> x,
-                                 double tolerance, int most_iterations,
-                                 ToleranceOf of = ToleranceOf::start);
+                                 double tolerance, int most_iterations, ToleranceOf of = ToleranceOf::start);
 
 /// The same where A is not symmetric: BiCGSTAB (Saad, alg. 7.7).
 KrylovResult bicgstab(const SparseRows& a, std::span<const double> b, std::span<double> x, double tolerance,
