@@ -82,7 +82,8 @@ std::string tell(const Summary::WaterMotion& c) {
       c.drained, std::abs(c.imbalance));
 }
 
-Summary::WaterMotion motion_summary(const Simulation& s, const DynamicWater& water) {
+Summary::WaterMotion motion_summary(const Simulation& s) {
+  const DynamicWater& water = *s.water_in_motion();
   return {s.failed_at() < never ? s.failed_at() : 0,
           water.counts().steps,
           water.counts().krylov_iterations,
@@ -166,10 +167,8 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
     particle_steps = summary.particles * summary.transient->soil_sweeps;
     summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, summary.steps));
   }
-  if (const DynamicWater* water = s.water_in_motion()) {
-    summary.motion = motion_summary(s, *water);
-    if (s.follows_flow()) summary.steps += s.moves(), particle_steps += summary.particles * s.moves();
-  }
+  if (s.water_in_motion() != nullptr) summary.motion = motion_summary(s);
+  if (s.follows_flow()) summary.steps += s.moves(), particle_steps += summary.particles * s.moves();
   summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;

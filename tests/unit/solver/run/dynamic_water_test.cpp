@@ -43,8 +43,10 @@ Case column(double height, int rows, WaterMode mode) {
 
 void load_top(Case& scene, double pressure) {
   const Polygon& outline = scene.soils[0].polygon;
-  scene.loads = {
-      {.name = "q", .from = outline[3], .to = outline[2], .pressure = pressure, .pressure_to = pressure}};
+  LoadCase q;
+  q.name = "q", q.from = outline[3], q.to = outline[2];
+  q.pressure = q.pressure_to = pressure;
+  scene.loads = {q};
 }
 
 void run_to_end(Simulation& s) {
