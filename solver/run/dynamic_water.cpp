@@ -8,13 +8,13 @@
 
 #include "solver/space/parallel.hpp"
 #include "solver/sph/consistent/flowing_soil.hpp"
-#include "solver/water/flow/default_faces.hpp"
 
 namespace porosph {
 namespace {
 
 constexpr double krylov_tolerance = 1e-2;  // of the right side; the next step makes good what is left
 constexpr int most_iterations = 20000;
+constexpr double share_of_free_side = 0.5;  // of a cell: the particle lies at a free surface
 
 /// What mirrors soil that has left its outline: closed stretches.
 HydraulicOutline outline_of_walls(const std::vector<Wall>& walls) {
@@ -36,21 +36,6 @@ DarcyFlow flow_of_moved(std::vector<SoilCase> soils, const HydraulicOutline& wal
   return {make_flow_pairs_of_moved(soils, walls, p, spacing), walls, full, p.soil, below};
 }
 
-/// Whether a particle drains where it lies at a free surface: not beside a face that the case closes.
-std::vector<std::uint8_t> draining(const Case& scene, const std::optional<Drainage>& drainage,
-                                   std::size_t particles) {
-  std::vector<std::uint8_t> drains(particles, drainage ? 1 : 0);
-  if (!drainage) return drains;
-  const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
-  const auto first_named = static_cast<int>(faces.size() - scene.water.faces.size());
-  for (std::size_t i = 0; i < drainage->outline.patches.size(); ++i) {
-    const int face = drainage->outline.patches[i].face;
-    const std::int32_t beside = drainage->flow.fed_by(static_cast<std::int32_t>(i));
-    if (beside >= 0 && face >= first_named && faces[face].kind != FaceKind::head) drains[beside] = 0;
-  }
-  return drains;
-}
-
 }  // namespace
 
 DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
@@ -61,14 +46,13 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
     inertia_.push_back(unit_weight_ * scene.loading.gravity / soil.unit_weight_saturated);
   of_.storage = storage_of_water(scene, p);
   for (std::size_t a = 0; a < n; ++a) of_.start_volume.push_back(p.volume(a));
-  for (auto* v : {&of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open, &of_.surface})
+  for (auto* v : {&of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open})
     v->assign(n, 0);
   for (auto* v : {&work_.rate, &work_.inflow, &work_.right_side, &work_.pressure, &work_.spread})
     v->resize(n);
   work_.velocity.resize(n), work_.push.resize(n);
   stencils_.drainage = drainage(scene, p);
   stencils_.inertia = pressure_stabilisation(scene.soils, inertia_, p, model.spacing);
-  drains_ = draining(scene, stencils_.drainage, n);
   take_stencils();
   if (scene.water.is_dynamic()) take_over();
 }
@@ -146,16 +130,17 @@ void DynamicWater::measure_surface() {
   dynamics_.excess_accelerations(work_.pressure, work_.push);
   dynamics_.volume_rates(work_.push, work_.rate);
   for (std::size_t a = 0; a < n; ++a) of_.open[a] = std::max(0.0, p.volume(a) * work_.rate[a]);
+  lies_free_.assign(n, 0);
   for (std::size_t a = 0; a < n && !made_at_.empty(); ++a) {
     const double area = p.mass[a] * work_.push[a].norm() / unit_weight_;
-    const double to_surface = std::sqrt(p.volume(a) / p.fill[a]) / 2;
-    of_.surface[a] = drains_[a] * std::sqrt(scene_.soils[p.soil[a]].permeability.prod()) * area / to_surface;
+    lies_free_[a] = area > share_of_free_side * std::sqrt(p.volume(a) / p.fill[a]) ? 1 : 0;
   }
   surface_is_known_ = true;
   find_fixed();
 }
 
-/// Particles that keep their head, 0: on a draining face, off the body, or with air in their pores.
+/// Particles that keep their head, 0: on a draining face, off the body, with air in their pores, or at the
+/// free surface of soil that has moved.
 void DynamicWater::find_fixed() {
   const FlowingSoil* flow = dynamics_.flow();
   const std::size_t n = of_.head.size();
@@ -164,7 +149,7 @@ void DynamicWater::find_fixed() {
     const bool drains = stencils_.drainage && stencils_.drainage->pinned[a] >= 0;
     const bool airy = !saturated_.empty() && saturated_[a] == 0;
     const bool loose = flow != nullptr && flow->loose().soil_has_flowed() && flow->loose().is(a);
-    fixed_[a] = drains || airy || loose ? 1 : 0;
+    fixed_[a] = drains || airy || loose || lies_free_[a] != 0 ? 1 : 0;
     if (fixed_[a]) of_.head[a] = of_.excess[a] = of_.change[a] = 0;
   }
   work_.of_dt = 0;
@@ -178,7 +163,7 @@ void DynamicWater::make_matrix(double dt, double gain) {
   SparseRows& m = work_.matrix = compact;
   for (std::size_t a = 0; a < m.size(); ++a) {
     const bool fixed = fixed_[a] != 0;
-    m.diagonal[a] = of_.storage[a] + dt * gain * (compact.diagonal[a] + of_.open[a]) + dt * of_.surface[a] +
+    m.diagonal[a] = of_.storage[a] + dt * gain * (compact.diagonal[a] + of_.open[a]) +
                     (drains ? dt * stencils_.flow.diagonal[a] : 0);
     for (auto k = m.begin[a]; k < m.begin[a + 1]; ++k)
       m.value[k] = fixed || fixed_[m.column[k]]
@@ -187,14 +172,18 @@ void DynamicWater::make_matrix(double dt, double gain) {
   }
 }
 
-/// R(h) at the present head.
-void DynamicWater::find_inflow() {
-  if (!stencils_.drainage) return work_.inflow.assign(of_.head.size(), 0);
+/// R(h) at the present head; returns what flows into particles whose head is fixed [m2/s].
+double DynamicWater::find_inflow() {
+  if (!stencils_.drainage) return 0;
   stencils_.flow.multiply(of_.head, work_.inflow);
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < of_.head.size(); ++a)
-    work_.inflow[a] =
-        fixed_[a] ? 0 : stencils_.still_inflow[a] - work_.inflow[a] - of_.surface[a] * of_.head[a];
+  double into_fixed = 0;
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+    work_.inflow[a] = stencils_.still_inflow[a] - work_.inflow[a];
+    if (fixed_[a] == 0) continue;
+    if (stencils_.drainage->pinned[a] < 0) into_fixed += work_.inflow[a];
+    work_.inflow[a] = 0;
+  }
+  return into_fixed;
 }
 
 double DynamicWater::held_water(std::size_t a) const {
@@ -232,13 +221,11 @@ void DynamicWater::keep(double dt, double gain) {
     of_.excess[a] = -unit_weight_ * of_.head[a];
     of_.held[a] += dt * gain * work_.spread[a];
   }
-  find_inflow();
-  double left = 0;
+  double left = find_inflow();
   for (std::size_t a = 0; a < p.size(); ++a) of_.water[a] += dt * work_.inflow[a];
   if (stencils_.drainage)
     for (const double q : stencils_.drainage->flow.through_patches(of_.head, stencils_.drainage->faces))
       left -= q;
-  for (std::size_t a = 0; a < p.size(); ++a) left += of_.surface[a] * of_.head[a];
   drained_ += dt * left;
 }
 
@@ -292,8 +279,7 @@ double DynamicWater::shown_energy() const {
 
 void DynamicWater::visit(StateArchive& state) {
   const std::size_t n = of_.head.size();
-  for (auto* v : {&of_.start_volume, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open,
-                  &of_.surface})
+  for (auto* v : {&of_.start_volume, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open})
     state.array("dynamic_water", *v);
   state.value("dynamic_drained", drained_);
   state.value("dynamic_surface_is_known", surface_is_known_);

@@ -41,8 +41,8 @@ class DynamicWater {
 
   /// From soil that was at rest; it may have a renewed reference.
   void begin(const Consolidation::State& state);
-  /// The same where pressures begin beside those of a flow that holds still from now on. Particles that are
-  /// not `saturated` keep theirs: air takes up what their pores lose.
+  /// The same where pressures begin beside those of a flow over time, which particles take along from now on.
+  /// Those that are not `saturated` keep theirs, and drain the others: air takes up what their pores lose.
   void begin(std::vector<std::uint8_t> saturated);
   /// The soil carries these pressures from now on.
   void take_over() { dynamics_.carry_excess(of_.excess); }
@@ -76,7 +76,6 @@ class DynamicWater {
     std::vector<double> held;          ///< Z [m2]
     std::vector<double> change;        ///< the last dh [m]
     std::vector<double> open;          ///< what the free surface adds to the compact Laplacian [m3/s2]
-    std::vector<double> surface;       ///< conductance of the free surface, once the soil has moved [m/s]
   };
   struct Stencils {
     std::optional<Drainage> drainage;  ///< nothing: undrained
@@ -97,7 +96,7 @@ class DynamicWater {
   void measure_surface();
   void let_through();
   void make_matrix(double dt, double gain);
-  void find_inflow();
+  double find_inflow();
   void make_right_side(Kick kick, double dt, std::span<const Vec2> accelerations);
   void solve();
   void keep(double dt, double gain);
@@ -108,8 +107,8 @@ class DynamicWater {
   Dynamics& dynamics_;
   double unit_weight_;
   std::vector<double> inertia_;          ///< gamma_w / rho of each soil [m/s2]
-  std::vector<std::uint8_t> drains_;     ///< of the particles: once they lie at a free surface
   std::vector<std::uint8_t> saturated_;  ///< of the particles; empty: all
+  std::vector<std::uint8_t> lies_free_;  ///< of the particles: at a free surface, once the soil has moved
   std::vector<std::uint8_t> fixed_;      ///< of the particles: they keep their head, 0
   Amounts of_;
   Stencils stencils_;
