@@ -46,8 +46,7 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
     inertia_.push_back(unit_weight_ * scene.loading.gravity / soil.unit_weight_saturated);
   of_.storage = storage_of_water(scene, p);
   for (std::size_t a = 0; a < n; ++a) of_.start_volume.push_back(p.volume(a));
-  for (auto* v : {&of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open})
-    v->assign(n, 0);
+  for (auto* v : {&of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open}) v->assign(n, 0);
   for (auto* v : {&work_.rate, &work_.inflow, &work_.right_side, &work_.pressure, &work_.spread})
     v->resize(n);
   work_.velocity.resize(n), work_.push.resize(n);

@@ -64,6 +64,8 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
 constexpr double share_of_failed_step = 0.25;  // the next try
 /// Time in which the soil fails, in crossings of the body by its waves: no flow step is shorter.
 constexpr double crossings_at_failure = 20;
+/// In which soil answers a flow over time elastically, before it slides: that much it has swollen already.
+constexpr double crossings_to_swell = 5;
 
 /// In a stage a probe reads the soil that it is in, and is nowhere until that is there.
 Probe make_probe(const ProbeCase& probe, const Case& scene, const Model& model) {
@@ -291,6 +293,8 @@ void Simulation::advance_seepage() {
   if (!instability_) return;
   instability_.reset();
   at_rest.restore(*this);
+  model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
+  comes_to_rest(crossings_to_swell);
   begin_motion();
 }
 
@@ -302,20 +306,25 @@ void Simulation::begin() {
   for (std::size_t a = 0; a < p.size(); ++a) p.uncounted[a] = p.position[a] - p.start[a];
 }
 
+bool Simulation::comes_to_rest(double most_crossings) {
+  const double given = scene_.stop.unbalanced_force_ratio;
+  const auto forces = [this] {
+    accelerations_valid_ = false;
+    return accelerations();
+  };
+  const bool rests = settling_.settle(model_, *dynamics_,
+                                      {.forces = forces,
+                                       .ratio = [this] { return unbalanced_force_ratio(); },
+                                       .enough = given > 0 ? given : Settling::usually_enough,
+                                       .most_crossings = most_crossings});
+  accelerations_valid_ = false;
+  return rests;
+}
+
 void Simulation::settle() {
   model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
   if (scene_.water.transient.rigid) return;
-  const double given = scene_.stop.unbalanced_force_ratio;
-  const bool rests = settling_.settle(model_, *dynamics_,
-                                      {.forces =
-                                           [this] {
-                                             accelerations_valid_ = false;
-                                             return accelerations();
-                                           },
-                                       .ratio = [this] { return unbalanced_force_ratio(); },
-                                       .enough = given > 0 ? given : Settling::usually_enough});
-  accelerations_valid_ = false;
-  if (rests) return;
+  if (comes_to_rest(Settling::Task{}.most_crossings)) return;
   instability_ = Breakdown{
       .cause = Cause::not_at_rest,
       .time = time(),
