@@ -11,16 +11,9 @@ DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutl
           below};
 }
 
-std::vector<HydraulicFaceCase> drainage_faces(const Case& scene) {
-  if (scene.water.mode == WaterMode::coupled) return faces_of_excess(scene);
-  Case unnamed = scene;
-  unnamed.water.faces.clear();
-  return faces_of_excess(unnamed);
-}
-
 std::optional<Drainage> drainage(const Case& scene, const Particles& p) {
-  if (scene.water.mode == WaterMode::undrained) return std::nullopt;
-  const std::vector<HydraulicFaceCase> faces = drainage_faces(scene);
+  if (scene.water.mode != WaterMode::coupled) return std::nullopt;
+  const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
   const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
   Drainage d{.outline = outline,
              .faces = FaceConditions(outline, faces, true),

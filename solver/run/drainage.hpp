@@ -18,10 +18,7 @@ struct Drainage {
   std::vector<std::int32_t> pinned = {};  ///< patch of particles that lie on a face, or -1
 };
 
-/// Faces of excess heads, those that the case names last. Beside a flow over time all free surfaces drain.
-std::vector<HydraulicFaceCase> drainage_faces(const Case& scene);
-
-/// As the case is drawn; nothing where it is undrained.
+/// As the case is drawn; nothing but in coupled soil.
 std::optional<Drainage> drainage(const Case& scene, const Particles& particles);
 
 /// Heads count as below all levels: kr = 1. Of the particles where they are in `particles`.

@@ -66,10 +66,9 @@ void DynamicWater::begin(const Consolidation::State& from) {
   take_over();
 }
 
-void DynamicWater::begin(std::vector<std::uint8_t> saturated) {
-  const Particles& p = model_.particles;
-  saturated_ = std::move(saturated);
-  for (std::size_t a = 0; a < p.size(); ++a) of_.start_volume[a] = p.volume(a);
+void DynamicWater::begin_drained() {
+  drained_soil_ = true;
+  for (std::size_t a = 0; a < of_.head.size(); ++a) of_.start_volume[a] = model_.particles.volume(a);
   if (dynamics_.counts.refreshes > 1) renew();
   take_over();
 }
@@ -138,7 +137,7 @@ void DynamicWater::measure_surface() {
   find_fixed();
 }
 
-/// Particles that keep their head, 0: on a draining face, off the body, with air in their pores, or at the
+/// Particles that keep their head, 0: on a draining face, off the body, or at the
 /// free surface of soil that has moved.
 void DynamicWater::find_fixed() {
   const FlowingSoil* flow = dynamics_.flow();
@@ -146,9 +145,8 @@ void DynamicWater::find_fixed() {
   fixed_.assign(n, 0);
   for (std::size_t a = 0; a < n; ++a) {
     const bool drains = stencils_.drainage && stencils_.drainage->pinned[a] >= 0;
-    const bool airy = !saturated_.empty() && saturated_[a] == 0;
     const bool loose = flow != nullptr && flow->loose().soil_has_flowed() && flow->loose().is(a);
-    fixed_[a] = drains || airy || loose || lies_free_[a] != 0 ? 1 : 0;
+    fixed_[a] = drained_soil_ || drains || loose || lies_free_[a] != 0 ? 1 : 0;
     if (fixed_[a]) of_.head[a] = of_.excess[a] = of_.change[a] = 0;
   }
   work_.of_dt = 0;
@@ -237,8 +235,17 @@ void DynamicWater::let_through() {
   }
 }
 
+/// What one step leaves the next makes good: where it does not, the pressure is of no soil.
+void DynamicWater::check_volumes() const {
+  constexpr double most = 1e-3;
+  for (std::size_t a = 0; a < of_.head.size(); ++a)
+    if (!fixed_[a] && !(std::abs(of_.water[a] - held_water(a)) < most * model_.particles.volume(a)))
+      throw Lost{a};
+}
+
 void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations) {
   let_through();
+  check_volumes();
   make_matrix(dt, kick.gain);
   make_right_side(kick, dt, accelerations);
   solve();
@@ -285,10 +292,7 @@ void DynamicWater::visit(StateArchive& state) {
   state.value("dynamic_steps", counts_.steps);
   state.value("dynamic_iterations", counts_.krylov_iterations);
   state.value("dynamic_renewals", counts_.renewals);
-  bool mixed = !saturated_.empty();
-  state.value("dynamic_mixed", mixed);
-  saturated_.resize(mixed ? n : 0);
-  state.array("dynamic_saturated", saturated_);
+  state.value("dynamic_drained_soil", drained_soil_);
   fixed_.resize(n);
   state.array("dynamic_fixed", fixed_);
   bool moved = !made_at_.empty();

@@ -39,18 +39,22 @@ class DynamicWater {
 
   DynamicWater(const Case& scene, Model& model, Dynamics& dynamics);
 
+  /// Thrown where W and what soil and pressure hold have parted.
+  struct Lost {
+    std::size_t particle;
+  };
+
   /// From soil that was at rest; it may have a renewed reference.
   void begin(const Consolidation::State& state);
-  /// The same where pressures begin beside those of a flow over time, which particles take along from now on.
-  /// Those that are not `saturated` keep theirs, and drain the others: air takes up what their pores lose.
-  void begin(std::vector<std::uint8_t> saturated);
+  /// From soil at rest in a flow over time, which particles take along: no excess pressure arises.
+  void begin_drained();
   /// The soil carries these pressures from now on.
   void take_over() { dynamics_.carry_excess(of_.excess); }
 
   /// In place of the dynamics' own: follows a renewed reference.
   void prepare();
   /// Adds to the accelerations, with which `kick` and a step dt [s] move the particles, what the change of
-  /// pressure in that step does.
+  /// pressure in that step does. Throws Lost.
   void add_change(Kick kick, double dt, std::span<Vec2> accelerations);
 
   std::span<const double> head() const { return of_.head; }      ///< excess, of the particles [m]
@@ -94,6 +98,7 @@ class DynamicWater {
   void make_stencils(const Particles& as_they_lie);
   void take_stencils();
   void measure_surface();
+  void check_volumes() const;
   void let_through();
   void make_matrix(double dt, double gain);
   double find_inflow();
@@ -107,7 +112,7 @@ class DynamicWater {
   Dynamics& dynamics_;
   double unit_weight_;
   std::vector<double> inertia_;          ///< gamma_w / rho of each soil [m/s2]
-  std::vector<std::uint8_t> saturated_;  ///< of the particles; empty: all
+  bool drained_soil_ = false;            ///< no excess pressure arises
   std::vector<std::uint8_t> lies_free_;  ///< of the particles: at a free surface, once the soil has moved
   std::vector<std::uint8_t> fixed_;      ///< of the particles: they keep their head, 0
   Amounts of_;

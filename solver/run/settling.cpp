@@ -8,6 +8,7 @@
 namespace porosph {
 namespace {
 
+constexpr double most_crossings = 200;
 constexpr int steps_between_balances = 10;
 
 double extent(const Particles& p) {
@@ -27,7 +28,7 @@ bool is_sound(const Particles& p, double fastest) {
 bool Settling::settle(Model& model, Dynamics& dynamics, const Task& task) {
   Particles& p = model.particles;
   const double crossing = extent(p) / model.wave_speed;
-  const auto most = static_cast<std::int64_t>(std::ceil(task.most_crossings * crossing / dt));
+  const auto most = static_cast<std::int64_t>(std::ceil(most_crossings * crossing / dt));
   std::ranges::fill(p.velocity, Vec2::Zero());
   std::vector<Vec2> before;
   double in_balance = 0;

@@ -19,9 +19,9 @@ struct Settling {
     std::function<std::span<const Vec2>()> forces;  ///< accelerations as the particles are now [m/s2]
     std::function<double()> ratio;                  ///< unbalanced force ratio of those [-]
     double enough;
-    double most_crossings = 200;  ///< of the body by its waves, in which it should come to rest
   };
-  /// Returns false where the soil has not come to rest in the time of the task, or has run away: it fails.
+  /// Returns false where the soil has not come to rest while a wave crosses it 200 times, or has run away: it
+  /// fails.
   bool settle(Model& model, Dynamics& dynamics, const Task& task);
   void visit(StateArchive& state);  ///< saves or restores what is kept
 

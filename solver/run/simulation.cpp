@@ -64,8 +64,6 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
 constexpr double share_of_failed_step = 0.25;  // the next try
 /// Time in which the soil fails, in crossings of the body by its waves: no flow step is shorter.
 constexpr double crossings_at_failure = 20;
-/// In which soil answers a flow over time elastically, before it slides: that much it has swollen already.
-constexpr double crossings_to_swell = 5;
 
 /// In a stage a probe reads the soil that it is in, and is nowhere until that is there.
 Probe make_probe(const ProbeCase& probe, const Case& scene, const Model& model) {
@@ -245,12 +243,8 @@ void Simulation::begin_motion() {
   end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
   if (seepage_) {
-    const Particles& p = model_.particles;
-    std::vector<std::uint8_t> saturated;
-    for (std::size_t a = 0; a < p.size(); ++a)
-      saturated.push_back(seepage_->is_saturated(a, p.position[a]) ? 1 : 0);
-    seepage_->stop(p);
-    moving_water_->begin(std::move(saturated));
+    seepage_->stop(model_.particles);
+    moving_water_->begin_drained();
   } else {
     moving_water_->begin(consolidation_->state());
   }
@@ -293,8 +287,6 @@ void Simulation::advance_seepage() {
   if (!instability_) return;
   instability_.reset();
   at_rest.restore(*this);
-  model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
-  comes_to_rest(crossings_to_swell);
   begin_motion();
 }
 
@@ -306,25 +298,20 @@ void Simulation::begin() {
   for (std::size_t a = 0; a < p.size(); ++a) p.uncounted[a] = p.position[a] - p.start[a];
 }
 
-bool Simulation::comes_to_rest(double most_crossings) {
-  const double given = scene_.stop.unbalanced_force_ratio;
-  const auto forces = [this] {
-    accelerations_valid_ = false;
-    return accelerations();
-  };
-  const bool rests = settling_.settle(model_, *dynamics_,
-                                      {.forces = forces,
-                                       .ratio = [this] { return unbalanced_force_ratio(); },
-                                       .enough = given > 0 ? given : Settling::usually_enough,
-                                       .most_crossings = most_crossings});
-  accelerations_valid_ = false;
-  return rests;
-}
-
 void Simulation::settle() {
   model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
   if (scene_.water.transient.rigid) return;
-  if (comes_to_rest(Settling::Task{}.most_crossings)) return;
+  const double given = scene_.stop.unbalanced_force_ratio;
+  const bool rests = settling_.settle(model_, *dynamics_,
+                                      {.forces =
+                                           [this] {
+                                             accelerations_valid_ = false;
+                                             return accelerations();
+                                           },
+                                       .ratio = [this] { return unbalanced_force_ratio(); },
+                                       .enough = given > 0 ? given : Settling::usually_enough});
+  accelerations_valid_ = false;
+  if (rests) return;
   instability_ = Breakdown{
       .cause = Cause::not_at_rest,
       .time = time(),
@@ -405,7 +392,18 @@ void Simulation::advance_in_motion() {
   accelerations();
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? accelerations_ : std::vector<Vec2>();
-  if (in_motion_) change_pressure();
+  try {
+    if (in_motion_) change_pressure();
+  } catch (const DynamicWater::Lost& lost) {
+    const Vec2 place = model_.particles.position[lost.particle] + model_.origin;
+    instability_ =
+        Breakdown{.cause = Cause::inverted,
+                  .time = time(),
+                  .message = fmt::format("at {:.6g} s the pore pressure no longer follows the volume of "
+                                         "the soil around ({:.4g}, {:.4g}): it has yielded too far",
+                                         time(), place.x(), place.y())};
+    return;
+  }
   drift();
   accelerations_valid_ = false;
   clock_.step += clock_.ticks;

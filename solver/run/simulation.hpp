@@ -136,7 +136,6 @@ class Simulation {
   void hold_footings();
   void advance_seepage();
   void settle();
-  bool comes_to_rest(double most_crossings);
   void take_accelerations_at_rest();
   std::int64_t next_tick_due() const;
   void name_breakdown(double time);

@@ -26,8 +26,6 @@ class TransientWater final : public FlowingWater {
 
   /// The soil has begun to slide and takes its water along, as it is where the flow is now.
   void stop(const Particles& particles) { take_along(particles); }
-  /// Whether a particle's pores are full of water.
-  bool is_saturated(std::size_t a, const Vec2& place) const { return pressure_head(a, place) >= 0; }
 
   const Richards& richards() const { return richards_; }
   /// Through each section of the case, from its left to its right, where the flow is now [m2/s].

@@ -150,8 +150,9 @@ TEST_CASE("a closed block of soil and water makes no energy", "[water][dynamic]"
   }
   const double late = (s.energy().total() - start) / most;
   CAPTURE(early, late);
-  CHECK(std::abs(early) < 0.0015);         // what the sudden start leaves
-  CHECK(std::abs(late - early) < 0.0003);  // and no drift after it, in 400 steps
+  CHECK(std::abs(early) < 0.0015);  // what the sudden start leaves
+  CHECK(late <= early);             // and no gain after it,
+  CHECK(late - early > -0.0006);    // but what the implicit pressure damps in 400 steps
 }
 
 TEST_CASE("soil in motion goes on from a kept state to the same bits", "[water][dynamic]") {
