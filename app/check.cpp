@@ -228,7 +228,7 @@ Case first_stage(const Case& scene) {
 void tell_large(const Case& scene, const Demand& demand) {
   print("particles", fmt::format("about {:.3g}", demand.particles));
   print_settings(scene);
-  if (scene.water.flows_over_time()) return;
+  if (scene.water.steps_by_flow()) return;
   print("time step", fmt::format("about {:.3g} s, {:.3g} steps to {:g} s", scene.time.end / demand.steps,
                                  demand.steps, scene.time.end));
   try {

@@ -72,6 +72,27 @@ std::string tell(const Summary::TransientSeepage& c) {
       c.soil_sweeps, c.entered, c.left, c.gained, std::abs(c.imbalance));
 }
 
+std::string tell(const Summary::WaterMotion& c) {
+  return fmt::format(
+      "{}{} steps with inertia, {:.3g} iterations each for the pressure; {:.4g} m2 of water have left, "
+      "{:.0e} "
+      "m2 are missing\n",
+      c.began > 0 ? fmt::format("equilibrium was lost at {:.6g} s; ", c.began) : "", c.steps,
+      static_cast<double>(c.krylov_iterations) / static_cast<double>(std::max<std::int64_t>(1, c.steps)),
+      c.drained, std::abs(c.imbalance));
+}
+
+Summary::WaterMotion motion_summary(const Simulation& s) {
+  const DynamicWater& water = *s.water_in_motion();
+  return {s.failed_at() < never ? s.failed_at() : 0,
+          water.counts().steps,
+          water.counts().krylov_iterations,
+          water.counts().renewals,
+          water.drained(),
+          water.imbalance(),
+          water.misfit()};
+}
+
 Summary::TransientSeepage transient_summary(const Simulation& s) {
   const Richards& flow = s.seepage()->richards();
   const Richards::Balance balance = flow.balance();
@@ -146,6 +167,8 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
     particle_steps = summary.particles * summary.transient->soil_sweeps;
     summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, summary.steps));
   }
+  if (s.water_in_motion() != nullptr) summary.motion = motion_summary(s);
+  if (s.follows_flow()) summary.steps += s.moves(), particle_steps += summary.particles * s.moves();
   summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
@@ -185,8 +208,11 @@ std::string tell(const Summary& s) {
                   styled(stdout, well ? Style::good : Style::error, endings[static_cast<int>(s.status)]),
                   s.time, s.steps, s.time_step);
   if (!s.message.empty()) text += ": " + s.message;
-  text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping, {:.2f} M particle-steps/s\n",
-                      s.particles, s.formulation, s.stepping_seconds, s.particle_steps_per_second / 1e6);
+  text += fmt::format("\n{} particles, {} formulation, {:.2f} s of stepping", s.particles, s.formulation,
+                      s.stepping_seconds);
+  if (s.particle_steps_per_second > 0)  // of a flow in soil that keeps still there are none
+    text += fmt::format(", {:.2f} M particle-steps/s", s.particle_steps_per_second / 1e6);
+  text += "\n";
   if (!std::isfinite(s.energy_growth)) return text;  // broken down: there is no state to tell of
   if (std::isfinite(s.unbalanced_force_ratio))
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
@@ -207,6 +233,7 @@ std::string tell(const Summary& s) {
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
   if (s.transient) text += tell(*s.transient);
+  if (s.motion) text += tell(*s.motion);
   text += tell(s.stages);
   for (const auto& [name, probe] : s.probes)
     if (std::isnan(probe.values.at("Displacement_Y")))

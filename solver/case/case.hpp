@@ -115,10 +115,13 @@ struct WaterCase {
   std::vector<DrainCase> drains = {};
   bool present() const { return !stretches.empty(); }  ///< it stands under a level
   bool flows() const { return mode != WaterMode::still; }
-  /// Soil and water answer each other, both at rest all the while.
+  /// Soil and water answer each other.
   bool couples() const { return mode == WaterMode::coupled || mode == WaterMode::undrained; }
-  /// Time is that of the flow, whose steps are as long as their error allows.
   bool flows_over_time() const { return couples() || mode == WaterMode::transient; }
+  /// Soil in motion from the start, which gives the time step.
+  bool is_dynamic() const { return flows_over_time() && coupling.motion == WaterMotion::dynamic; }
+  /// Time is that of the flow, whose steps are as long as their error allows.
+  bool steps_by_flow() const { return flows_over_time() && coupling.motion != WaterMotion::dynamic; }
 };
 
 enum class BoundaryKind {

@@ -44,6 +44,11 @@ void check_constant(const Case& c, Issues& issues) {
 }
 
 void check_transient(const Case& c, Issues& issues) {
+  if (c.water.coupling.motion == WaterMotion::dynamic)
+    issues.push_back(
+        {"water.motion", "must be \"quasi_static\" or \"automatic\" with water.mode = \"transient\""});
+  if (c.water.coupling.motion == WaterMotion::automatic && c.water.transient.rigid)
+    issues.push_back({"water.motion", "must be \"quasi_static\" with water.rigid_soil: nothing fails"});
   if (c.loading.k0_stress)
     issues.push_back(
         {"loading.k0_stress", "is for water under a level: the soil comes to rest from no stress"});
@@ -74,9 +79,10 @@ void check_steady(const Case& c, Issues& issues) {
 void check_coupled(const Case& c, Issues& issues) {
   check_constant(c, issues);
   const std::string mode = fmt::format("water.mode = \"{}\"", name(c.water.mode));
-  if (c.loading.damping > 0 || c.loading.adaptive_damping)
+  const bool rests = !c.water.is_dynamic();
+  if (rests && (c.loading.damping > 0 || c.loading.adaptive_damping))
     issues.push_back({"loading.damping", fmt::format("is not used with {}: the soil is at rest", mode)});
-  if (c.stop.unbalanced_force_ratio > 0)
+  if (rests && c.stop.unbalanced_force_ratio > 0)
     issues.push_back({"stop.unbalanced_force_ratio",
                       fmt::format("is not used with {}: the soil is at rest all the while", mode)});
   for (std::size_t i = 0; i < c.water.faces.size(); ++i)

@@ -94,7 +94,7 @@ std::vector<CaseIssue> check_footings(const Case& c) {
       issues.push_back({key, fault});
     if (c.formulation.motion != Motion::consistent)
       issues.push_back({key, "a footing needs formulation.motion = \"consistent\""});
-    if (c.water.couples() && settles)
+    if (c.water.couples() && c.water.steps_by_flow() && settles)
       issues.push_back({key + ".settlement",
                         fmt::format("with water.mode = \"{}\" a footing needs 'force'", name(c.water.mode))});
     if (c.water.mode == WaterMode::transient)

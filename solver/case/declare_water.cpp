@@ -12,6 +12,7 @@ using Names = std::string_view;
 constexpr std::array<Names, 5> water_modes{name(WaterMode::still), name(WaterMode::steady),
                                            name(WaterMode::coupled), name(WaterMode::undrained),
                                            name(WaterMode::transient)};
+constexpr std::array<Names, 3> water_motions{"quasi_static", "dynamic", "automatic"};
 constexpr std::array<Names, 5> face_kinds{"head", "closed", "seepage", "flux", "rain"};
 
 bool level_everywhere(const WaterCase& c) {
@@ -23,6 +24,23 @@ void declare_coupling(Fields& f, const WaterCase& water, CouplingCase& c) {
     return Key(name, unit, meaning)
         .only_if(water.flows_over_time(), "mode = \"coupled\", \"undrained\" or \"transient\"");
   };
+  f.choice(
+      key("motion", "",
+          "`quasi_static`: the soil is at rest all the while, and the run ends where it fails; `dynamic`: it "
+          "moves with its inertia, in steps that neither permeability nor `bulk_modulus` makes shorter; "
+          "`automatic`: it is at rest until it fails, and moves from there on. `transient` is never "
+          "`dynamic` from the start."),
+      c.motion, water_motions);
+  const auto in_motion = [&](std::string_view name, std::string_view meaning) {
+    return Key(name, "s", meaning)
+        .only_if(water.flows_over_time() && c.motion == WaterMotion::automatic, "motion = \"automatic\"");
+  };
+  f.number(in_motion("motion_time", "How long the soil moves after it has failed; the run then ends."),
+           c.motion_time, above(0, longest));
+  f.number(in_motion("motion_interval",
+                     "Between frames and between rows of the history while it moves, in place of "
+                     "`output.interval` and `output.history_interval`."),
+           c.motion_interval, above(0, longest));
   bool incompressible = !(c.bulk_modulus < never);
   double modulus = incompressible ? CouplingCase{}.bulk_modulus : c.bulk_modulus;
   f.number_or(key("bulk_modulus", "Pa", "Of water; `incompressible`: it keeps its volume."), modulus,

@@ -44,7 +44,7 @@ Demand demand_of(const Case& scene) {
   demand.particles = whole / (scene.particles.spacing * scene.particles.spacing);
   demand.bytes = demand.particles * bytes_per_particle(scene);
   const double time_step_bound = scene.time.courant * scene.smoothing_length();
-  if (scene.water.flows_over_time()) return demand;  // flow steps are as long as their error allows
+  if (scene.water.steps_by_flow()) return demand;  // flow steps are as long as their error allows
   demand.steps = scene.time.step > 0 ? scene.time.end / scene.time.step
                                      : scene.time.end * wave_speed(scene) / time_step_bound;
   return demand;

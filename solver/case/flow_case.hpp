@@ -25,6 +25,13 @@ constexpr std::string_view name(WaterMode mode) {
   return names[static_cast<int>(mode)];
 }
 
+/// How soil moves that water flows in over time.
+enum class WaterMotion {
+  quasi_static,  ///< at rest all the while; a run in which it does not come to rest ends
+  dynamic,       ///< with its inertia
+  automatic      ///< at rest until it does not come to rest any more, and with its inertia from there on
+};
+
 /// How permeability and saturation fall above the water table.
 enum class RetentionModel {
   saturated,      ///< full below the water table; within one spacing above it kr falls to 0.001
@@ -36,6 +43,9 @@ enum class RetentionModel {
 /// How flow and soil are computed together.
 struct CouplingCase {
   static constexpr double incompressible = std::numeric_limits<double>::infinity();
+  WaterMotion motion = WaterMotion::quasi_static;
+  double motion_time = 20;       ///< automatic: of the run after equilibrium is lost [s]
+  double motion_interval = 0.5;  ///< between frames and rows of the history in it [s]
   double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
   double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
   double stabilisation = 0.25;  ///< a of tau = a gamma_w dx^2 / M: see PressureStabilisation [-]

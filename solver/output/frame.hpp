@@ -101,6 +101,15 @@ struct Summary {
     double imbalance = 0;  ///< lost by the particles and not drained [m2]
   };
   std::optional<Consolidation> consolidation;
+  /// Soil whose pore pressure moved with its inertia.
+  struct WaterMotion {
+    double began = 0;  ///< when equilibrium was lost; 0: at the start [s]
+    std::int64_t steps = 0, krylov_iterations = 0, renewals = 0;
+    double drained = 0;    ///< since the start of the run [m2]
+    double imbalance = 0;  ///< lost by the particles and not drained [m2]
+    double misfit = 0;     ///< largest, of a particle's volume and water, over its volume [-]
+  };
+  std::optional<WaterMotion> motion;
   struct Probe {
     double x = 0, y = 0;                   ///< where it was at t = 0 [m]
     std::map<std::string, double> values;  ///< quantity -> final value, SI

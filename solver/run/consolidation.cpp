@@ -8,13 +8,11 @@
 #include <stdexcept>
 
 #include "solver/space/parallel.hpp"
-#include "solver/water/flow/default_faces.hpp"
 
 namespace porosph {
 namespace {
 
 constexpr double gamma_of_sdirk = 1 - 1 / std::numbers::sqrt2;
-constexpr double usual_porosity = 0.4;
 constexpr double share_of_split = 0.1;  // of the tolerance: what one turn leaves, the next ones add up
 constexpr int most_turns = 300;
 constexpr double krylov_tolerance = 1e-5;
@@ -26,40 +24,17 @@ double rms(std::span<const double> x) {
                    static_cast<double>(x.size()));
 }
 
-/// Heads count as below all levels: kr = 1.
-DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
-                         const Particles& p, double spacing) {
-  const std::vector<double> below(p.size(), -1e9);
-  return {make_flow_pairs(soils, outline, p, spacing), outline, std::vector<Retention>(soils.size()), p.soil,
-          below};
-}
-
 /// tau = a gamma_w dx^2 / M of each soil, as a permeability.
 PressureStabilisation stabilisation(const Case& scene, const Model& model) {
   if (scene.water.coupling.stabilisation == 0) return {};
-  std::vector<SoilCase> soils = scene.soils;
   const double all =
       scene.water.coupling.stabilisation * scene.water.unit_weight * model.spacing * model.spacing;
-  for (std::size_t i = 0; i < soils.size(); ++i)
-    soils[i].permeability = Point::Constant(all / model.soils[i].constrained_modulus());
-  const HydraulicOutline outline =
-      hydraulic_outline(soils, {{.kind = FaceKind::closed}}, scene.particles.spacing);
-  return {saturated_flow(soils, outline, model.particles, model.spacing), outline, model.particles.position};
+  std::vector<double> tau;
+  for (const Soil& soil : model.soils) tau.push_back(all / soil.constrained_modulus());
+  return pressure_stabilisation(scene.soils, tau, model.particles, model.spacing);
 }
 
 }  // namespace
-
-/// Heads are excess heads, measured from the level of the water that stands.
-std::optional<Consolidation::Drainage> Consolidation::drainage(const Case& scene, const Particles& p) {
-  if (scene.water.mode == WaterMode::undrained) return std::nullopt;
-  const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
-  const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
-  Drainage d{.outline = outline,
-             .faces = FaceConditions(outline, faces, true),
-             .flow = saturated_flow(scene.soils, outline, p, scene.particles.spacing)};
-  d.pinned = d.flow.pinning_patches(d.faces);
-  return d;
-}
 
 Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics,
                              std::span<const LoadedParticles> loads, std::span<Footing> footings, double dt)
@@ -71,14 +46,12 @@ Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics
       stabilisation_(stabilisation(scene, model)) {
   const Particles& p = model.particles;
   const std::size_t n = p.size();
+  of_.storage = storage_of_water(scene, p);
   double fastest = 0;
   for (std::size_t a = 0; a < n; ++a) {
-    const SoilCase& soil = scene.soils[p.soil[a]];
-    const double volume = p.volume(a), modulus = model.soils[p.soil[a]].constrained_modulus();
-    const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
-    of_.storage.push_back(unit_weight_ * porosity * volume / scene.water.coupling.bulk_modulus);
-    of_.split.push_back(unit_weight_ * volume / modulus);
-    fastest = std::max(fastest, soil.permeability.maxCoeff() * modulus / unit_weight_);
+    const double modulus = model.soils[p.soil[a]].constrained_modulus();
+    of_.split.push_back(unit_weight_ * p.volume(a) / modulus);
+    fastest = std::max(fastest, scene.soils[p.soil[a]].permeability.maxCoeff() * modulus / unit_weight_);
   }
   of_.head.assign(n, 0), of_.water.assign(n, 0), of_.smoothed.assign(n, 0), of_.inflow.assign(n, 0);
   of_.residual.resize(n), of_.change.resize(n);
@@ -101,6 +74,16 @@ Consolidation::Counts Consolidation::counts() const {
   Counts counts = counts_;
   counts.soil_sweeps = soil_.sweeps();
   return counts;
+}
+
+Consolidation::State Consolidation::state() const {
+  State state{.head = of_.head,
+              .water = of_.water,
+              .smoothed = of_.smoothed,
+              .start_volume = {},
+              .drained = progress_.drained};
+  for (std::size_t a = 0; a < of_.head.size(); ++a) state.start_volume.push_back(soil_.start_volume(a));
+  return state;
 }
 
 /// While the soil moves, p_w is that of the water that stands.
@@ -195,10 +178,10 @@ void Consolidation::take_turns(std::span<const double> known, double tau) {
   }
   const std::size_t a = soil_.fastest();
   const Vec2 place = model_.particles.position[a] + model_.origin;
-  throw std::runtime_error(fmt::format(
-      "the soil does not come to rest at {:.6g} s: it fails around ({:.4g}, {:.4g}), or water.tolerance is "
-      "too small",
-      progress_.time, place.x(), place.y()));
+  throw NotAtRest(fmt::format("the soil does not come to rest at {:.6g} s: it fails around ({:.4g}, {:.4g}), "
+                              "or water.tolerance is too small",
+                              progress_.time, place.x(), place.y()),
+                  progress_.time);
 }
 
 /// The loads act at once; no water has left yet.

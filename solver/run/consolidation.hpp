@@ -3,12 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/run/drainage.hpp"
 #include "solver/run/resting_soil.hpp"
 #include "solver/sph/dynamics.hpp"
-#include "solver/water/flow/pressure_stabilisation.hpp"
 
 namespace porosph {
 
@@ -35,7 +36,7 @@ class Consolidation {
                 std::span<Footing> footings, double dt);
 
   /// One flow step from the time `now`, not beyond `until` [s]; returns the time that it reached. Throws
-  /// std::runtime_error where the soil does not come to rest: it has failed.
+  /// NotAtRest where the soil does not come to rest: it has failed.
   double advance(double now, double until);
 
   std::span<const double> head() const { return of_.head; }  ///< excess, of the particles [m]
@@ -45,6 +46,19 @@ class Consolidation {
   std::span<const Vec2> accelerations() const { return soil_.accelerations(); }  ///< those that are left
   void visit(StateArchive& state);  ///< saves or restores all of it
   Counts counts() const;
+
+  /// What soil that goes on with its inertia begins with.
+  struct State {
+    std::span<const double> head, water, smoothed;  ///< h [m]; W and T h [m2]
+    std::vector<double> start_volume;               ///< [m2]
+    double drained;                                 ///< [m2]
+  };
+  State state() const;
+  /// Thrown where the soil does not come to rest.
+  struct NotAtRest : std::runtime_error {
+    NotAtRest(const std::string& message, double when) : std::runtime_error(message), time(when) {}
+    double time;  ///< [s]
+  };
   /// Forces left by the last step, as in the tolerance [-].
   double unbalanced() const { return progress_.unbalanced; }
 
@@ -61,13 +75,6 @@ class Consolidation {
   double water_of(std::size_t a) const;
   void show_pressure(double sign);
 
-  /// What the water flows by.
-  struct Drainage {
-    HydraulicOutline outline;
-    FaceConditions faces;
-    DarcyFlow flow;
-    std::vector<std::int32_t> pinned = {};  ///< patch of particles that lie on a face, or -1
-  };
   /// Of each particle.
   struct Amounts {
     std::vector<double> storage, split;            ///< S and beta of the split [m]
@@ -88,7 +95,6 @@ class Consolidation {
     std::vector<Vec2> position;
     std::vector<double> head;
   };
-  static std::optional<Drainage> drainage(const Case& scene, const Particles& particles);
 
   Model& model_;
   RestingSoil soil_;

@@ -7,8 +7,8 @@ namespace porosph {
 std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start) {
   const FlowingSoil* flow = simulation.dynamics().flow();
   const LoadingCase& loading = simulation.scene().loading;
-  if (flow == nullptr || !simulation.scene().footings.empty() || loading.adaptive_damping ||
-      loading.damping > 0)
+  if (flow == nullptr || simulation.water_in_motion() != nullptr || !simulation.scene().footings.empty() ||
+      loading.adaptive_damping || loading.damping > 0)
     return std::nullopt;
   const Simulation::Energy now = simulation.energy();
   const FlowingSoil::Work& work = flow->work();

@@ -67,7 +67,7 @@ std::vector<double> history_row(Simulation& s) {
   // counts.
   if (!s.footings().empty()) s.accelerations();
   std::vector<double> row = {s.time()};
-  if (const Consolidation* c = s.consolidation()) row.push_back(c->drained());
+  if (const auto drained = s.drained()) row.push_back(*drained);
   if (s.seepage() != nullptr) {
     const std::vector<double> of_water = water_balance_row(s);
     row.insert(row.end(), of_water.begin(), of_water.end());
@@ -88,7 +88,7 @@ std::vector<double> history_row(Simulation& s) {
 
 bool has_failed(const Simulation& s) {
   constexpr std::int64_t steps_between_looks = 20;
-  if (!(s.scene().stop.displacement < never) || s.step() % steps_between_looks != 0) return false;
+  if (!(s.scene().stop.displacement < never) || s.moves() % steps_between_looks != 0) return false;
   return s.largest_displacement() > s.scene().stop.displacement;
 }
 
@@ -114,8 +114,8 @@ class Guard {
   explicit Guard(const Simulation& s) : watches_energy_(keeps_energy(s)) {}
 
   void look(Simulation& s, RunProgress& progress) const {
-    if (s.instability() || s.step() % steps_between_energy_checks != 0) return;
-    if (s.step() % steps_between_searches == 0) s.look_for_breakdown();
+    if (s.instability() || s.rests_in_flow() || s.moves() % steps_between_energy_checks != 0) return;
+    if (s.moves() % steps_between_searches == 0) s.look_for_breakdown();
     if (!s.instability()) weigh_energy(s, progress);
     if (!s.instability()) s.remember();
   }
@@ -152,7 +152,7 @@ bool Schedule::due(std::int64_t step) const {
 
 std::vector<std::string> history_columns(const Simulation& simulation) {
   std::vector<std::string> columns = {"time"};
-  if (simulation.consolidation() != nullptr) columns.push_back("water.drained");
+  if (simulation.drained()) columns.push_back("water.drained");
   if (simulation.seepage() != nullptr) {
     const std::vector<std::string> of_water = water_balance_columns(simulation);
     columns.insert(columns.end(), of_water.begin(), of_water.end());
@@ -200,7 +200,13 @@ class Recorder {
       if (watch_.history) watch_.history(history_row(s_));
     }
   }
-  void record_what_is_due() { record(frames_.due(s_.step()), rows_.due(s_.step())); }
+  void record_what_is_due() {
+    if (s_.follows_flow() && s_.water_in_motion() != nullptr) {
+      const bool due = s_.motion_is_due();
+      return record(due, due);
+    }
+    record(frames_.due(s_.step()), rows_.due(s_.step()));
+  }
 
  private:
   Simulation& s_;

@@ -10,6 +10,7 @@
 #include "solver/case/shapes.hpp"
 #include "solver/model/soil_law.hpp"
 #include "solver/run/highest_frequency.hpp"
+#include "solver/run/kept_state.hpp"
 #include "solver/run/monitor/energy.hpp"
 #include "solver/space/parallel.hpp"
 
@@ -60,6 +61,10 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
   return runaways;
 }
 
+constexpr double share_of_failed_step = 0.25;  // the next try
+/// Time in which the soil fails, in crossings of the body by its waves: no flow step is shorter.
+constexpr double crossings_at_failure = 20;
+
 /// In a stage a probe reads the soil that it is in, and is nowhere until that is there.
 Probe make_probe(const ProbeCase& probe, const Case& scene, const Model& model) {
   if (!scene.plan) return Probe(probe, model);
@@ -101,7 +106,10 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   clock_.dt = time_step_of(scene, model_, clock_.courant, clock_.start);
   clock_.last_step = std::llround(std::ceil((scene.time.end - clock_.start) / clock_.dt * (1 - 1e-12)));
   for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
-  if (scene.water.couples()) couple();
+  if (scene.water.flows_over_time() && scene.water.coupling.motion != WaterMotion::quasi_static)
+    moving_water_ = std::make_unique<DynamicWater>(moved(scene, -model_.origin), model_, *dynamics_);
+  in_motion_ = scene.water.is_dynamic();
+  if (scene.water.couples() && !in_motion_) couple();
   seepage_ = std::dynamic_pointer_cast<TransientWater>(model_.pore_water);
   if (seepage_) time_by_flow();
   at_start_.closest = closest_distance(model_.particles.position, 2 * model_.spacing);
@@ -154,6 +162,22 @@ void Simulation::time_by_flow() {
   clock_.dt = scene_.time.end / static_cast<double>(clock_.last_step);
 }
 
+/// When so many of its intervals have passed since the soil failed.
+std::int64_t Simulation::motion_tick(double intervals) const {
+  return std::llround((failed_at_ + intervals * scene_.water.coupling.motion_interval) / clock_.dt);
+}
+
+bool Simulation::motion_is_due() const {
+  if (!follows_flow() || !in_motion_) return false;
+  return clock_.step ==
+         motion_tick(std::round((time() - failed_at_) / scene_.water.coupling.motion_interval));
+}
+
+void Simulation::end_after_motion() {
+  const double end = failed_at_ + scene_.water.coupling.motion_time;
+  clock_.last_step = std::min<std::int64_t>(clock_.last_step, std::llround(end / clock_.dt));
+}
+
 /// The next time at which something is written, as Schedule counts it.
 std::int64_t Simulation::next_tick_due() const {
   const OutputCase& output = scene_.output;
@@ -162,6 +186,11 @@ std::int64_t Simulation::next_tick_due() const {
     if (const std::int64_t tick = std::llround(time / clock_.dt); tick > clock_.step)
       due = std::min(due, tick);
   };
+  if (in_motion_) {
+    const double interval = scene_.water.coupling.motion_interval;
+    const std::int64_t next = motion_tick(std::floor((time() - failed_at_) / interval + 1e-9) + 1);
+    return std::min(due, std::max(next, clock_.step + 1));
+  }
   for (const double interval : {output.interval, output.history_interval})
     if (interval > 0) offer((std::floor(time() / interval + 1e-9) + 1) * interval);
   for (const double time : output.times) offer(time);
@@ -173,14 +202,62 @@ void Simulation::advance_flow() {
   const std::int64_t due = next_tick_due();
   const double until = static_cast<double>(due) * clock_.dt;
   try {
-    const double reached = consolidation_->advance(time(), until);
-    clock_.step =
-        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
+    while (!try_flow(until, due))
+      if (longest_flow_step_ < crossings_at_failure * crossing_time()) return begin_motion();
   } catch (const std::runtime_error& failure) {
     instability_ = Breakdown{.cause = Cause::not_at_rest, .time = time(), .message = failure.what()};
     return;
   }
   take_accelerations_at_rest();
+}
+
+/// A step of the flow; false where the soil does not come to rest in it, and is where it was.
+bool Simulation::try_flow(double until, std::int64_t due) {
+  const auto flow = [&] {
+    const double reached = consolidation_->advance(time(), std::min(until, time() + longest_flow_step_));
+    clock_.step =
+        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
+  };
+  if (scene_.water.coupling.motion != WaterMotion::automatic) return flow(), true;
+  const KeptState before(*this);
+  try {
+    return flow(), true;
+  } catch (const Consolidation::NotAtRest& failure) {
+    longest_flow_step_ = share_of_failed_step * (failure.time - time());
+  }
+  before.restore(*this);
+  return false;
+}
+
+/// Of the body, as it is drawn, by the fastest wave [s].
+double Simulation::crossing_time() const {
+  Vec2 low = model_.particles.start.front(), high = low;
+  for (const Vec2& x : model_.particles.start) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  return (high - low).maxCoeff() / model_.wave_speed;
+}
+
+/// Equilibrium is lost within a moment from now: the soil goes on with its inertia.
+void Simulation::begin_motion() {
+  failed_at_ = time();
+  in_motion_ = true;
+  end_after_motion();
+  std::ranges::fill(model_.particles.velocity, Vec2::Zero());
+  if (seepage_) {
+    seepage_->stop(model_.particles);
+    moving_water_->begin_drained();
+  } else {
+    moving_water_->begin(consolidation_->state());
+  }
+  dynamics_->strain(0);  // it remembers velocities
+  accelerations_valid_ = false;
+}
+
+/// Steps as long as the soil's waves allow, which end where something is due.
+void Simulation::choose_ticks() {
+  if (!follows_flow()) return;
+  const double longest = settling_.dt / clock_.dt;
+  const std::int64_t left = next_tick_due() - clock_.step;
+  clock_.ticks = left / static_cast<std::int64_t>(std::ceil(static_cast<double>(left) / longest));
 }
 
 void Simulation::take_accelerations_at_rest() {
@@ -204,7 +281,13 @@ void Simulation::advance_seepage() {
   }
   if (clock_.step < due) return;
   seepage_->tell();
+  if (scene_.water.coupling.motion != WaterMotion::automatic) return settle();
+  const KeptState at_rest(*this);
   settle();
+  if (!instability_) return;
+  instability_.reset();
+  at_rest.restore(*this);
+  begin_motion();
 }
 
 void Simulation::begin() {
@@ -242,50 +325,98 @@ void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;
   if (time() >= loading.damping_until) return 0;
-  return loading.adaptive_damping ? relaxation_.damping : loading.damping / clock_.dt;
+  return loading.adaptive_damping ? relaxation_.damping : loading.damping / step_length();
 }
 
 std::span<const Vec2> Simulation::accelerations() {
   if (!accelerations_valid_) {
-    dynamics_->prepare();
-    dynamics_->accelerations(accelerations_);
-    add_loads(model_.loads, model_.particles, time(), accelerations_);
-    add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
-    if (seepage_) seepage_->add_weight(model_.particles, model_.gravity, accelerations_);
-    for (Footing& footing : footings_)
-      footing.hold(model_.particles, next_kick(), clock_.dt, time_of(clock_.step + 1), accelerations_);
+    if (in_motion_) model_.pore_water->follow(model_.water, model_.particles, 0, model_.particles.size());
+    sum_forces();
+    if (in_motion_) show_excess();
     accelerations_valid_ = true;
   }
   return accelerations_;
 }
 
+/// Where pressure moves with the soil, p_w is that of the water that stands meanwhile.
+void Simulation::sum_forces() {
+  in_motion_ ? moving_water_->prepare() : dynamics_->prepare();
+  dynamics_->accelerations(accelerations_);
+  add_loads(model_.loads, model_.particles, time(), accelerations_);
+  add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
+  if (seepage_) seepage_->add_weight(model_.particles, model_.gravity, accelerations_);
+  if (in_motion_ && !footings_.empty()) unheld_ = accelerations_;
+  hold_footings();
+}
+
+void Simulation::hold_footings() {
+  for (Footing& footing : footings_)
+    footing.hold(model_.particles, next_kick(), step_length(), time_of(clock_.step + clock_.ticks),
+                 accelerations_);
+}
+
+/// p_w is that of the water outside, or of a flow, and the excess.
+void Simulation::show_excess() {
+  Particles& p = model_.particles;
+  model_.pore_water->follow(model_.water, p, 0, p.size());
+  const auto excess = moving_water_->excess();
+  for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += excess[a];
+}
+
+/// The pressure at the end of the step acts in it; footings hold against both.
+void Simulation::change_pressure() {
+  if (footings_.empty()) return moving_water_->add_change(next_kick(), step_length(), accelerations_);
+  const std::vector<Vec2> held = accelerations_;
+  moving_water_->add_change(next_kick(), step_length(), accelerations_);
+  for (std::size_t a = 0; a < held.size(); ++a) accelerations_[a] += unheld_[a] - held[a];
+  hold_footings();
+}
+
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
-  if (clock_.step == 0 || follows_flow()) return v;
+  if (moves() == 0 || rests_in_flow()) return v;
   const auto a = accelerations();
-  const Kick kick = half_kick(damping(), clock_.dt);
+  const Kick kick = half_kick(damping(), step_length());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
 }
 
 void Simulation::advance() {
   if (instability_) return;
-  if (consolidation_) return advance_flow();
-  if (seepage_) return advance_seepage();
+  if (rests_in_flow()) return consolidation_ ? advance_flow() : advance_seepage();
+  advance_in_motion();
+}
+
+void Simulation::advance_in_motion() {
+  choose_ticks();
   accelerations();
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? accelerations_ : std::vector<Vec2>();
+  try {
+    if (in_motion_) change_pressure();
+  } catch (const DynamicWater::Lost& lost) {
+    const Vec2 place = model_.particles.position[lost.particle] + model_.origin;
+    instability_ =
+        Breakdown{.cause = Cause::inverted,
+                  .time = time(),
+                  .message = fmt::format("at {:.6g} s the pore pressure no longer follows the volume of "
+                                         "the soil around ({:.4g}, {:.4g}): it has yielded too far",
+                                         time(), place.x(), place.y())};
+    return;
+  }
   drift();
   accelerations_valid_ = false;
-  ++clock_.step;
+  clock_.step += clock_.ticks;
+  ++clock_.moves;
   if (instability_) return;
-  dynamics_->strain(clock_.dt);
-  model_.pore_water->flow(model_.water, model_.particles, clock_.dt);
-  if (measure) relaxation_.measure(model_.particles, before, accelerations(), clock_.dt);
+  dynamics_->strain(step_length());
+  model_.pore_water->flow(model_.water, model_.particles, step_length());
+  if (in_motion_) show_excess();
+  if (measure) relaxation_.measure(model_.particles, before, accelerations(), step_length());
 }
 
 Kick Simulation::next_kick() const {
-  return (clock_.step == 0 ? first_kick : full_kick)(damping(), clock_.dt);
+  return (moves() == 0 ? first_kick : full_kick)(damping(), step_length());
 }
 
 /// v^{n+1/2} and x^{n+1}, and the pore pressure there.
@@ -293,14 +424,14 @@ void Simulation::drift() {
   Particles& p = model_.particles;
   const Kick kick = next_kick();
   const bool wet = model_.pore_water->acts(model_.water);
-  const double then = time_of(clock_.step + 1);
+  const double then = time_of(clock_.step + clock_.ticks);
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
   std::int64_t runaways = 0;
 #pragma omp parallel reduction(+ : runaways)
   {
     const auto [first, last] = thread_range(p.size());
-    runaways = move_particles(first, last, kick, clock_.dt, limit, p, accelerations_);
+    runaways = move_particles(first, last, kick, step_length(), limit, p, accelerations_);
     if (wet) model_.pore_water->follow(model_.water, p, first, last);
   }
   runaway_ = runaways > 0;
@@ -327,11 +458,25 @@ void Simulation::visit(StateArchive& state) {
   model_.pore_water->visit(state);
   if (consolidation_) consolidation_->visit(state);
   if (seepage_) settling_.visit(state);
+  if (moving_water_) visit_motion(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   accelerations_valid_ = false;
-  if (prepared) consolidation_ ? take_accelerations_at_rest() : void(accelerations());
+  if (prepared) consolidation_ && !in_motion_ ? take_accelerations_at_rest() : void(accelerations());
   counts = counts_then;
+}
+
+void Simulation::visit_motion(StateArchive& state) {
+  state.value("in_motion", in_motion_);
+  state.value("ticks", clock_.ticks);
+  state.value("moves", clock_.moves);
+  state.value("failed_at", failed_at_);
+  state.value("longest_flow_step", longest_flow_step_);
+  if (!in_motion_) return;
+  moving_water_->visit(state);
+  if (!state.restoring()) return;
+  moving_water_->take_over();
+  if (follows_flow()) end_after_motion();
 }
 
 void Simulation::visit_remembered(StateArchive& state, std::optional<State>& remembered) const {
@@ -380,6 +525,12 @@ bool Simulation::exchange_with_last_good() {
   return true;
 }
 
+std::optional<double> Simulation::drained() const {
+  if (const DynamicWater* water = water_in_motion()) return water->drained();
+  if (consolidation_) return consolidation_->drained();
+  return std::nullopt;
+}
+
 double Simulation::largest_displacement() const {
   const Particles& p = model_.particles;
   double squared = 0;
@@ -396,10 +547,11 @@ double Simulation::unbalanced_force_ratio() {
 
 Simulation::Energy Simulation::energy() {
   const std::vector<Vec2> v = velocities();
+  const double of_excess = in_motion_ ? moving_water_->energy() - moving_water_->shown_energy() : 0;
   return {.kinetic = kinetic_energy(model_.particles, v),
           .elastic = elastic_energy(model_),
           .gravity = gravity_energy(model_) + load_energy(surface_loads_, model_.particles, time()),
-          .water = water_energy(model_)};
+          .water = water_energy(model_) + of_excess};
 }
 
 }  // namespace porosph

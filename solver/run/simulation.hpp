@@ -8,6 +8,7 @@
 
 #include "solver/model/model.hpp"
 #include "solver/run/consolidation.hpp"
+#include "solver/run/dynamic_water.hpp"
 #include "solver/run/footings.hpp"
 #include "solver/run/hand_over.hpp"
 #include "solver/run/leapfrog.hpp"
@@ -53,8 +54,11 @@ class Simulation {
   double time() const { return time_of(clock_.step); }         ///< [s]
   double time_of(std::int64_t step) const { return clock_.start + static_cast<double>(step) * clock_.dt; }
   double start_time() const { return clock_.start; }  ///< 0, but in later stages [s]
-  double time_step() const { return clock_.dt; }      ///< [s]
-  double courant() const { return clock_.courant; }   ///< the case's, or less where disorder requires it
+  double time_step() const { return clock_.dt; }      ///< that steps are counted by [s]
+  double step_length() const { return clock_.dt * static_cast<double>(clock_.ticks); }  ///< of the next [s]
+  /// Steps so far in which the soil moved with its inertia.
+  std::int64_t moves() const { return follows_flow() ? clock_.moves : clock_.step; }
+  double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -63,8 +67,18 @@ class Simulation {
   const Consolidation* consolidation() const { return consolidation_.get(); }  ///< null unless coupled
   const TransientWater* seepage() const { return seepage_.get(); }             ///< null unless transient
   std::int64_t settling_sweeps() const { return settling_.sweeps; }            ///< of the soil in that flow
-  /// Whether time is that of a flow, whose steps are as long as it allows.
+  /// Null unless the soil moves with its inertia and pore pressures of its own.
+  const DynamicWater* water_in_motion() const { return in_motion_ ? moving_water_.get() : nullptr; }
+  /// Of water that has left coupled soil; nothing elsewhere [m2].
+  std::optional<double> drained() const;
+  /// Whether time is counted by a flow, whose steps are as long as it allows.
   bool follows_flow() const { return consolidation_ || seepage_; }
+  /// Whether the soil is at rest all the while in that flow: until it fails, where the case goes on from
+  /// there.
+  bool rests_in_flow() const { return follows_flow() && !in_motion_; }
+  /// Whether a frame and a row are due now of soil that has failed and moves.
+  bool motion_is_due() const;
+  double failed_at() const { return failed_at_; }  ///< when it did; never: it has not [s]
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -109,6 +123,17 @@ class Simulation {
   void couple();
   void time_by_flow();
   void advance_flow();
+  bool try_flow(double until, std::int64_t due);
+  double crossing_time() const;
+  void begin_motion();
+  void choose_ticks();
+  std::int64_t motion_tick(double intervals) const;
+  void end_after_motion();
+  void advance_in_motion();
+  void sum_forces();
+  void show_excess();
+  void change_pressure();
+  void hold_footings();
   void advance_seepage();
   void settle();
   void take_accelerations_at_rest();
@@ -118,6 +143,8 @@ class Simulation {
   struct Clock {
     double start = 0, courant = 0, dt = 0;
     std::int64_t step = 0, last_step = 0;
+    std::int64_t ticks = 1;  ///< of dt that the next step takes
+    std::int64_t moves = 0;  ///< steps with inertia, where dt is a tick of the flow
   };
   struct AtStart {
     std::int64_t bodies = 0;
@@ -131,6 +158,7 @@ class Simulation {
   struct Remembered {
     std::optional<State> last, before;
   };
+  void visit_motion(StateArchive& state);
   void visit_remembered(StateArchive& state, std::optional<State>& remembered) const;
 
   Case scene_;
@@ -138,12 +166,16 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   std::unique_ptr<Consolidation> consolidation_;
   std::shared_ptr<TransientWater> seepage_;
+  std::unique_ptr<DynamicWater> moving_water_;            ///< null where the soil never moves with its own
+  bool in_motion_ = false;                                ///< it does now
+  double failed_at_ = never, longest_flow_step_ = never;  ///< [s]
   Settling settling_;
   std::vector<Probe> probes_;
   Clock clock_;
   std::vector<LoadedParticles> surface_loads_;
   std::vector<Footing> footings_;
   std::vector<Vec2> accelerations_;
+  std::vector<Vec2> unheld_;  ///< the same without what footings do; where pressures change in a step
   bool accelerations_valid_ = false;
   bool taken_over_ = false;  ///< began with the state of another
   Relaxation relaxation_;    ///< unused unless the case's damping is adaptive

@@ -38,6 +38,12 @@ class Dynamics {
   /// stress, as one stress; `excess` is read whenever the particles are strained.
   virtual void carry_excess(std::span<const double> excess);
 
+  /// Accelerations that pressures `excess` [Pa] alone give, one per particle [m/s2]: what carrying them adds.
+  virtual void excess_accelerations(std::span<const double> excess, std::span<Vec2> out);
+  /// How fast each particle's volume would grow with these velocities [m/s], over its volume [1/s]: what
+  /// strain() would make of them, and the adjoint of the above.
+  virtual void volume_rates(std::span<const Vec2> velocities, std::span<double> out);
+
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
   /// saving. Lists and gradients are rebuilt by the code that made them first. Throws StateError.
   virtual void visit(StateArchive& state) = 0;
@@ -56,6 +62,11 @@ class Dynamics {
 inline void Dynamics::carry_excess(std::span<const double>) {
   throw std::logic_error("this form of the motion equation carries no excess pore pressure");
 }
+
+inline void Dynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2>) {
+  carry_excess(excess);
+}
+inline void Dynamics::volume_rates(std::span<const Vec2>, std::span<double>) { carry_excess({}); }
 
 /// The dynamics that the case asks for.
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);

@@ -64,7 +64,7 @@ std::vector<double> FlowingWater::through_sections(std::span<const double> head,
 }
 
 double FlowingWater::unit_weight(const SoilCase& soil, std::size_t a, double area, const Vec2& place) const {
-  const double psi = record_.head[a] - place.y();
+  const double psi = pressure_head(a, place);
   const bool by_depth = !weighs_by_saturation_ || soil.retention.model == RetentionModel::saturated;
   const double part =
       by_depth ? std::clamp(0.5 + psi / std::sqrt(area), 0.0, 1.0) : flow_.retention(a).saturation(psi);
@@ -82,7 +82,20 @@ void FlowingWater::wet(const Case& scene, Particles& p) const {
 
 void FlowingWater::follow(const StandingWater&, Particles& p, std::size_t first, std::size_t last) const {
   for (std::size_t a = first; a < last; ++a)
-    p.pore_pressure[a] = -unit_weight_ * flow_.retention(a).effective(record_.head[a] - p.position[a].y());
+    p.pore_pressure[a] = -unit_weight_ * flow_.retention(a).effective(pressure_head(a, p.position[a]));
+}
+
+void FlowingWater::take_along(const Particles& p) {
+  std::vector<double> psi;
+  for (std::size_t a = 0; a < p.size(); ++a) psi.push_back(record_.head[a] - p.position[a].y());
+  taken_along_ = std::move(psi);
+}
+
+void FlowingWater::visit_taken_along(StateArchive& state) {
+  bool taken = is_taken_along();
+  state.value("flow_taken_along", taken);
+  taken_along_.resize(taken ? place_.size() : 0);
+  state.array("flow_taken_along_psi", taken_along_);
 }
 
 void FlowingWater::fill_ghosts(const StandingWater&, const Particles& p, const Ghosts& ghosts,
@@ -90,7 +103,8 @@ void FlowingWater::fill_ghosts(const StandingWater&, const Particles& p, const G
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     const auto root = static_cast<std::size_t>(ghosts.root(i));
-    const double head = record_.head[root] - record_.gradient[root].dot(places[i] - p.position[root]);
+    const double head = pressure_head(root, p.position[root]) + p.position[root].y() -
+                        record_.gradient[root].dot(places[i] - p.position[root]);
     pressure[p.size() + i] = -unit_weight_ * flow_.retention(root).effective(head - places[i].y());
   }
 }

@@ -11,7 +11,8 @@
 namespace porosph {
 
 /// Each particle keeps its head while the soil moves; its pore pressure is that of its pressure head where it
-/// is now, and the gradient of all pore pressures is buoyancy and seepage force in one.
+/// is now, and the gradient of all pore pressures is buoyancy and seepage force in one. Soil that slides
+/// takes its water along: each particle then keeps its pressure head instead.
 class FlowingWater : public PoreWater {
  public:
   /// Of the particles as they are drawn. Throws std::runtime_error where a drain is near none.
@@ -35,6 +36,13 @@ class FlowingWater : public PoreWater {
   const FlowRecord* record() const override { return &record_; }
 
  protected:
+  void take_along(const Particles& particles);
+  void visit_taken_along(StateArchive& state);
+  bool is_taken_along() const { return !taken_along_.empty(); }
+  double pressure_head(std::size_t a, const Vec2& place) const {
+    return is_taken_along() ? taken_along_[a] : record_.head[a] - place.y();
+  }
+
   /// Tells of the flow that heads and faces make, as of the particles' places at the start.
   void tell(std::vector<double> head, const FaceConditions& faces);
   std::vector<double> through_sections(std::span<const double> head, const FaceConditions& faces) const;
@@ -58,6 +66,7 @@ class FlowingWater : public PoreWater {
   bool weighs_by_saturation_;               ///< above the water table, where the soil has a retention curve
   std::vector<Vec2> place_, permeability_;  ///< of the particles: where they were drawn [m], k [m/s]
   std::vector<SectionFlow> sections_;
+  std::vector<double> taken_along_;  ///< psi of the particles; empty: they keep their heads [m]
 };
 
 }  // namespace porosph

@@ -113,6 +113,7 @@ void TransientWater::visit(StateArchive& state) {
   state.array("flow_told_saturation", record_.saturation);
   state.array("flow_told_through_faces", record_.through_faces);
   state.array("flow_told_through_sections", record_.through_sections);
+  visit_taken_along(state);
 }
 
 }  // namespace porosph

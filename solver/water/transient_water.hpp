@@ -24,6 +24,9 @@ class TransientWater final : public FlowingWater {
   /// accelerations [m/s2].
   void add_weight(const Particles& particles, const Vec2& gravity, std::span<Vec2> accelerations) const;
 
+  /// The soil has begun to slide and takes its water along, as it is where the flow is now.
+  void stop(const Particles& particles) { take_along(particles); }
+
   const Richards& richards() const { return richards_; }
   /// Through each section of the case, from its left to its right, where the flow is now [m2/s].
   std::vector<double> through_sections() const {

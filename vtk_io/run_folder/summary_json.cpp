@@ -147,6 +147,14 @@ Json to_json(const Summary::Consolidation& c) {
   return json;
 }
 
+Json to_json(const Summary::WaterMotion& c) {
+  Json json;
+  put(json, "began", c.began);
+  json["steps"] = c.steps, json["krylov_iterations"] = c.krylov_iterations, json["renewals"] = c.renewals;
+  put(json, "drained", c.drained), put(json, "imbalance", c.imbalance), put(json, "misfit", c.misfit);
+  return json;
+}
+
 Json to_json(const Summary::TransientSeepage& c) {
   Json json;
   json["flow_steps"] = c.flow_steps, json["refused_steps"] = c.refused_steps;
@@ -180,6 +188,7 @@ Json to_json(const Summary& summary) {
   if (summary.energy) json["energy_budget"] = to_json(*summary.energy);
   if (summary.seepage) json["seepage"] = to_json(*summary.seepage);
   if (summary.consolidation) json["consolidation"] = to_json(*summary.consolidation);
+  if (summary.motion) json["motion"] = to_json(*summary.motion);
   if (summary.transient) json["transient_seepage"] = to_json(*summary.transient);
   json["probes"] = object_of(summary.probes);
   if (!summary.footings.empty()) json["footings"] = object_of(summary.footings);
@@ -424,6 +433,12 @@ Summary::Consolidation consolidation_from(const Object& json) {
           count("soil_sweeps"), json.number("drained"),   json.number("imbalance")};
 }
 
+Summary::WaterMotion motion_from(const Object& json) {
+  const auto count = [&](const char* key) { return json.integer<std::int64_t>(key); };
+  return {json.number("began"),   count("steps"),           count("krylov_iterations"), count("renewals"),
+          json.number("drained"), json.number("imbalance"), json.number("misfit")};
+}
+
 Summary summary_from(const Object& json) {
   Summary summary;
   summary.title = json.text("title");
@@ -454,6 +469,7 @@ Summary summary_from(const Object& json) {
   if (json.has("transient_seepage"))
     summary.transient = transient_seepage_from(json.object("transient_seepage"));
   if (json.has("consolidation")) summary.consolidation = consolidation_from(json.object("consolidation"));
+  if (json.has("motion")) summary.motion = motion_from(json.object("motion"));
   if (json.has("finite_elements")) summary.finite_elements = fem_check_from(json.at("finite_elements"));
   if (json.has("warnings")) summary.warnings = json.texts("warnings");
   const auto skipped = json.object("skipped");

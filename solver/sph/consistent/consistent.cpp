@@ -82,6 +82,7 @@ void ConsistentDynamics::rebuild_reference() {
   if (friction_.active()) friction_.take(reference_, model_);
   fluxes_ = Fluxes(reference_, model_, spring_.active(), flow_.active() ? &flow_.loose() : nullptr);
   if (flow_.active()) fluxes_.keep_piola_of(flow_.wall_work().particles_at_walls());
+  of_excess_.reset();
   connect_arrays();
 }
 
@@ -121,7 +122,7 @@ bool ConsistentDynamics::strangers_are_near() {
 }
 
 void ConsistentDynamics::take_velocities() {
-  fluxes_.take_velocities(reference_, model_.particles);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
   if (flow_.active()) flow_.take_velocities(reference_, model_.particles);
 }
 
@@ -168,7 +169,7 @@ Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
-  fluxes_.take_velocities(reference_, model_.particles);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
     std::array<PlaneTensor, PairStencils::tile> rate;
@@ -180,6 +181,41 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
         out[a] = own_sides_.rate_of(own_sides_.place[a], out[a]);
     }
   }
+}
+
+void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
+  const Particles& p = model_.particles;
+  if (!of_excess_) of_excess_.emplace(reference_, model_, false, flow_.active() ? &flow_.loose() : nullptr);
+  of_excess_->take_pressures_alone(reference_, p.fill, fluxes_, excess);
+  ConsistentArrays arrays = arrays_;
+  of_excess_->connect(arrays, reference_);
+  fluxes_.deformation().connect(arrays.state.deformation);
+  arrays.motion.pressure = nullptr;
+  arrays.flow.viscosity = nullptr;
+  arrays.control.viscosity = 0;
+  arrays.gravity[0] = arrays.gravity[1] = 0;
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
+    kernels_.accelerate(arrays, tile, out.data()->data());
+}
+
+/// The velocities of the particles take their place again for the next forces.
+void ConsistentDynamics::volume_rates(std::span<const Vec2> velocities, std::span<double> out) {
+  fluxes_.take_velocities(reference_, velocities);
+  const auto rate_of = [&](std::size_t a, const Mat2& rate) {
+    return (rate * inverse(fluxes_.deformation(a))).trace();
+  };
+#pragma omp parallel for schedule(static)
+  for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
+    std::array<PlaneTensor, PairStencils::tile> rate;
+    kernels_.rates(arrays_, tile, rate.data()->data());
+    const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
+      out[a] = rate_of(a, matrix(rate[a - first]));
+  }
+  if (flow_.active())
+    for (const auto& [a, rate] : flow_.rates_at_walls(reference_, velocities)) out[a] = rate_of(a, rate);
+  fluxes_.take_velocities(reference_, model_.particles.velocity);
 }
 
 void ConsistentDynamics::strain(double dt) {

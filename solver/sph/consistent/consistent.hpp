@@ -1,6 +1,8 @@
 // The consistent form: the exact adjoint of the strain rate, on a reference configuration.
 #pragma once
 
+#include <optional>
+
 #include "solver/sph/consistent/flowing_soil.hpp"
 #include "solver/sph/consistent/fluxes.hpp"
 #include "solver/sph/consistent/reference.hpp"
@@ -37,6 +39,8 @@ class ConsistentDynamics final : public Dynamics {
   void velocity_gradients(std::span<Mat2> out) override;
   void strain(double dt) override;
   void carry_excess(std::span<const double> excess) override { arrays_.state.excess = excess.data(); }
+  void excess_accelerations(std::span<const double> excess, std::span<Vec2> out) override;
+  void volume_rates(std::span<const Vec2> velocities, std::span<double> out) override;
   void visit(StateArchive& state) override;
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
   double work_of_wall_friction() const override { return friction_.work(); }
@@ -70,10 +74,11 @@ class ConsistentDynamics final : public Dynamics {
   ReferenceConfiguration reference_;
   OwnSides own_sides_;
   ZeroEnergySpring spring_;
-  Fluxes fluxes_;               ///< since the reference
-  FlowingSoil flow_;            ///< of no effect in elastic soil
-  std::vector<double> yields_;  ///< of particles: as in SoilStateView; empty where nobody asks
-  ConsistentArrays arrays_{};   ///< all these, as the kernels see them
+  Fluxes fluxes_;                    ///< since the reference
+  std::optional<Fluxes> of_excess_;  ///< those of an excess pressure alone, once they are asked for
+  FlowingSoil flow_;                 ///< of no effect in elastic soil
+  std::vector<double> yields_;       ///< of particles: as in SoilStateView; empty where nobody asks
+  ConsistentArrays arrays_{};        ///< all these, as the kernels see them
   SinceReference since_;
 };
 

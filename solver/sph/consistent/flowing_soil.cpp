@@ -182,18 +182,16 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
 }
 
-FlowingSoil::Gradients FlowingSoil::gradients(const ReferenceConfiguration& r, const Particles& p,
+FlowingSoil::Gradients FlowingSoil::gradients(const ReferenceConfiguration& r, std::span<const Vec2> v,
                                               std::int32_t a) const {
   const auto n = static_cast<std::int32_t>(r.particles());
   Mat2 soil = Mat2::Zero(), walls = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
     const Eigen::RowVector2d way(g.x, g.y);
     if (b < n)
-      soil += (p.velocity[b] - p.velocity[a]) * way;
+      soil += (v[b] - v[a]) * way;
     else
-      walls += (r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[r.ghosts.root(b - n)])) -
-                p.velocity[a]) *
-               way;
+      walls += (r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(v[r.ghosts.root(b - n)])) - v[a]) * way;
   });
   return {soil * correction_[a].transpose(), (soil + walls) * r.correction[a].transpose()};
 }
@@ -201,7 +199,18 @@ FlowingSoil::Gradients FlowingSoil::gradients(const ReferenceConfiguration& r, c
 void FlowingSoil::take_velocities(const ReferenceConfiguration& r, const Particles& p) {
   gradient_.resize(at_walls_.size());
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < at_walls_.size(); ++k) gradient_[k] = gradients(r, p, at_walls_[k]);
+  for (std::size_t k = 0; k < at_walls_.size(); ++k) gradient_[k] = gradients(r, p.velocity, at_walls_[k]);
+}
+
+std::vector<std::pair<std::int32_t, Mat2>> FlowingSoil::rates_at_walls(const ReferenceConfiguration& r,
+                                                                       std::span<const Vec2> v) const {
+  std::vector<std::pair<std::int32_t, Mat2>> rates;
+  if (!has_flowed_) return rates;
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(r.particles()); ++a)
+    if (loose_.is(a)) rates.emplace_back(a, Mat2::Zero());
+  for (const std::int32_t a : at_walls_)
+    if (!loose_.is(a)) rates.emplace_back(a, gradients(r, v, a).own);
+  return rates;
 }
 
 double FlowingSoil::deform_at_walls(double dt, PlaneTensors& deformation) const {
@@ -258,7 +267,7 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
   std::vector<Mat2> gradient(n);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
-    const auto [own, with_walls] = gradients(r, p, a);
+    const auto [own, with_walls] = gradients(r, p.velocity, a);
     gradient[a] = blind_[a] ? own : with_walls;
   }
   sample_.begin(p);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/particles/state.hpp"
@@ -38,6 +39,10 @@ class FlowingSoil {
   /// do not move with it is sheared as the law sees it, but its neighbours stay in place. Returns the largest
   /// |F - I| there. In soil that has flowed only.
   double deform_at_walls(double dt, PlaneTensors& deformation) const;
+
+  /// dF/dt of the particles whose F the steps do not carry: at fixed walls by the soil alone, else none.
+  std::vector<std::pair<std::int32_t, Mat2>> rates_at_walls(const ReferenceConfiguration& reference,
+                                                            std::span<const Vec2> velocities) const;
 
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
@@ -86,7 +91,7 @@ class FlowingSoil {
   struct Gradients {
     Mat2 own, with_walls;  ///< by the soil alone, and by ghosts as well
   };
-  Gradients gradients(const ReferenceConfiguration& reference, const Particles& particles,
+  Gradients gradients(const ReferenceConfiguration& reference, std::span<const Vec2> velocities,
                       std::int32_t a) const;  ///< of the velocity of particle a [1/s]
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil

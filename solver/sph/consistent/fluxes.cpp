@@ -40,8 +40,8 @@ void Fluxes::spread(const ReferenceConfiguration& r, std::array<std::vector<doub
   r.ghosts.fill<Mirrors::motion>([&](std::size_t k) { return Vec2(x[k], y[k]); }, write);
 }
 
-void Fluxes::take_velocities(const ReferenceConfiguration& r, const Particles& p) {
-  spread(r, velocity_, [&](std::size_t a) { return p.velocity[a]; });
+void Fluxes::take_velocities(const ReferenceConfiguration& r, std::span<const Vec2> velocities) {
+  spread(r, velocity_, [&](std::size_t a) { return velocities[a]; });
 }
 
 void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
@@ -87,6 +87,23 @@ void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model)
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < pressure_.size(); ++i)
     if (r.listed[i]) records_[i].q[pressure_lane] = pressure_[i];
+}
+
+/// P = J p_e F^-T.
+void Fluxes::take_pressures_alone(const ReferenceConfiguration& r, const std::vector<double>& fill,
+                                  const Fluxes& soil, std::span<const double> excess) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < excess.size(); ++a) {
+    const Mat2 f = soil.deformation_[a];
+    const Mat2 p = excess[a] * (Mat2() << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0)).finished();
+    const Mat2 flux = fill[a] * p * r.correction[a];
+    flux_.set(a, flux);
+    if (mirrored_[a]) piola_[a] = plane_tensor(p);
+    if (!r.listed[a]) continue;
+    for (int k = 0; k < 4; ++k) records_[a].q[k] = flux(k / 2, k % 2);
+  }
+  behind_walls_.fill(r, piola_);
+  fill_ghost_fluxes(r, fill, true);
 }
 
 void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills,

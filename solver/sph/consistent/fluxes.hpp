@@ -24,13 +24,17 @@ class Fluxes {
   Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control,
          const LooseParticles* loose);
 
-  /// The particles' velocities, and the ghosts'.
-  void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
+  /// Velocities of the particles, and the ghosts'.
+  void take_velocities(const ReferenceConfiguration& reference, std::span<const Vec2> velocities);
   /// What the next forces need beside the flux of the particles: pore pressure, v + k * displacement for the
   /// zero-energy control, and the ghosts' P and flux.
   /// `flow`: viscosity of the control of each particle, which grows by the ghosts'; or null.
   void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
                       const ZeroEnergySpring& spring, std::vector<double>* flow, WallFriction& friction);
+
+  /// In place of both: fluxes of pressures `excess` of the particles alone [Pa], where `soil` has deformed.
+  void take_pressures_alone(const ReferenceConfiguration& reference, const std::vector<double>& fill,
+                            const Fluxes& soil, std::span<const double> excess);
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 

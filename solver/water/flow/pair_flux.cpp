@@ -37,8 +37,14 @@ double harmonic(double a, double b) { return 2 * a * b / (a + b); }
 class Builder {
  public:
   Builder(const std::vector<SoilCase>& soils, const HydraulicOutline& outline, const Particles& p,
-          double spacing)
-      : soils_(soils), outline_(outline), p_(p), spacing_(spacing), kernel_(spacing), points_(p.position) {
+          double spacing, bool as_drawn)
+      : as_drawn_(as_drawn),
+        soils_(soils),
+        outline_(outline),
+        p_(p),
+        spacing_(spacing),
+        kernel_(spacing),
+        points_(p.position) {
     ghosts_ = Ghosts(outline.stretches, 0, outline.stretches.size(), kernel_.support(), points_);
     for (std::size_t a = 0; a < p.size(); ++a) cell_.push_back(p.volume(a) / p.fill[a]);
     ghosts_.fill<Mirrors::scalar>(cell_);
@@ -47,10 +53,13 @@ class Builder {
   FlowPairs build() {
     link();
     make_moments();
-    for (int i = 0; close() && i < corrections; ++i) correct_moments();
+    for (int i = 0; as_drawn_ && close() && i < corrections; ++i) correct_moments();
     fill();
     pair_up();
-    find_particles_beside_patches();
+    if (as_drawn_)
+      find_particles_beside_patches();
+    else
+      out_.beside_patch.assign(outline_.patches.size(), -1);
     return std::move(out_);
   }
 
@@ -110,7 +119,7 @@ class Builder {
   bool sees_ghost(const OutlineSight& sight, std::int32_t a, std::size_t ghost) const {
     if (!is_beside_its_stretch(ghost)) return false;
     if (lies_on_mirror(a, ghost)) return true;
-    if (ghosts_.stems_from_ghost(ghost)) return sight.sees_ghost(a, ghost, ghosts_, p_);
+    if (ghosts_.stems_from_ghost(ghost)) return !as_drawn_ || sight.sees_ghost(a, ghost, ghosts_, p_);
     return first_stretch_between(points_[a], points_[particles() + ghost]) == ghosts_.image(ghost).wall;
   }
   static Vec2 crossing(const Wall& wall, const Vec2& from, const Vec2& to) {
@@ -295,7 +304,7 @@ class Builder {
           out_.face_pairs.push_back(face_pair(l));
       }
       out_.correction.push_back(correction(a, second / (2 * volume(a))));
-      add_to_faces(a);
+      if (as_drawn_) add_to_faces(a);
     }
     out_.begin.push_back(std::ssize(out_.pairs));
   }
@@ -383,6 +392,7 @@ class Builder {
     }
   }
 
+  bool as_drawn_;
   const std::vector<SoilCase>& soils_;
   const HydraulicOutline& outline_;
   const Particles& p_;
@@ -403,7 +413,12 @@ class Builder {
 
 FlowPairs make_flow_pairs(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
                           const Particles& particles, double spacing) {
-  return Builder(soils, outline, particles, spacing).build();
+  return Builder(soils, outline, particles, spacing, true).build();
+}
+
+FlowPairs make_flow_pairs_of_moved(const std::vector<SoilCase>& soils, const HydraulicOutline& walls,
+                                   const Particles& particles, double spacing) {
+  return Builder(soils, walls, particles, spacing, false).build();
 }
 
 }  // namespace porosph

@@ -54,4 +54,9 @@ struct FlowPairs {
 FlowPairs make_flow_pairs(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
                           const Particles& particles, double spacing);
 
+/// Of soil that has moved away from its outline as drawn: `walls` mirror it, and its free surface lets
+/// nothing pass. Without mu, whose equations need images all around.
+FlowPairs make_flow_pairs_of_moved(const std::vector<SoilCase>& soils, const HydraulicOutline& walls,
+                                   const Particles& particles, double spacing);
+
 }  // namespace porosph

@@ -38,11 +38,12 @@ void SparseRows::multiply(std::span<const double> x, std::span<double> out) cons
 }
 
 KrylovResult conjugate_gradients(const SparseRows& a, std::span<const double> b, std::span<double> x,
-                                 double tolerance, int most_iterations) {
+                                 double tolerance, int most_iterations, ToleranceOf of) {
   const std::size_t n = b.size();
   Vector r = residual_of(a, b, x), z(n), image(n);
-  const double start = std::sqrt(dot(r, r));
-  KrylovResult result{.iterations = 0, .residual = 1, .converged = start == 0};
+  const double size = std::sqrt(dot(r, r));
+  const double start = of == ToleranceOf::start ? size : std::sqrt(dot(b, b));
+  KrylovResult result{.iterations = 0, .residual = 1, .converged = size <= tolerance * start};
   const auto precondition = [&] { fill(z, [&](std::size_t i) { return r[i] / a.diagonal[i]; }); };
   precondition();
   Vector direction = z;

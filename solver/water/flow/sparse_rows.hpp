@@ -25,10 +25,12 @@ struct KrylovResult {
 };
 
 /// Solves A x = b with A symmetric and positive definite, from the x that is given, until the residual is
-/// `tolerance` of that at the start. Preconditioned with the diagonal. The bits do not depend on the number
-/// of threads. Source: Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1.
+/// `tolerance` of that at the start, or of b where that is asked for. Preconditioned with the diagonal. The
+/// bits do not depend on the number of threads. Source: Saad, Iterative Methods for Sparse Linear Systems,
+/// alg. 9.1.
+enum class ToleranceOf { start, right_side };
 KrylovResult conjugate_gradients(const SparseRows& a, std::span<const double> b, std::span<double> x,
-                                 double tolerance, int most_iterations);
+                                 double tolerance, int most_iterations, ToleranceOf of = ToleranceOf::start);
 
 /// The same where A is not symmetric: BiCGSTAB (Saad, alg. 7.7).
 KrylovResult bicgstab(const SparseRows& a, std::span<const double> b, std::span<double> x, double tolerance,

@@ -1,0 +1,43 @@
+#include "solver/run/drainage.hpp"
+
+#include "solver/water/flow/default_faces.hpp"
+
+namespace porosph {
+
+DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
+                         const Particles& p, double spacing) {
+  const std::vector<double> below(p.size(), -1e9);
+  return {make_flow_pairs(soils, outline, p, spacing), outline, std::vector<Retention>(soils.size()), p.soil,
+          below};
+}
+
+std::optional<Drainage> drainage(const Case& scene, const Particles& p) {
+  if (scene.water.mode != WaterMode::coupled) return std::nullopt;
+  const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
+  const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
+  Drainage d{.outline = outline,
+             .faces = FaceConditions(outline, faces, true),
+             .flow = saturated_flow(scene.soils, outline, p, scene.particles.spacing)};
+  d.pinned = d.flow.pinning_patches(d.faces);
+  return d;
+}
+
+PressureStabilisation pressure_stabilisation(std::vector<SoilCase> soils, std::span<const double> tau,
+                                             const Particles& particles, double spacing) {
+  for (std::size_t i = 0; i < soils.size(); ++i) soils[i].permeability = Point::Constant(tau[i]);
+  const HydraulicOutline outline = hydraulic_outline(soils, {{.kind = FaceKind::closed}}, spacing);
+  return {saturated_flow(soils, outline, particles, spacing), outline, particles.position};
+}
+
+std::vector<double> storage_of_water(const Case& scene, const Particles& p) {
+  constexpr double usual_porosity = 0.4;
+  std::vector<double> storage;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const SoilCase& soil = scene.soils[p.soil[a]];
+    const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
+    storage.push_back(scene.water.unit_weight * porosity * p.volume(a) / scene.water.coupling.bulk_modulus);
+  }
+  return storage;
+}
+
+}  // namespace porosph

@@ -1,0 +1,231 @@
+#include "solver/run/dynamic_water.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/case/case_file.hpp"
+#include "solver/run/kept_state.hpp"
+#include "solver/run/simulation.hpp"
+
+using namespace porosph;
+
+namespace {
+
+/// A column between rollers, at rest under its weight and water.
+Case column(double height, int rows, WaterMode mode) {
+  const double width = 4 * height / rows;
+  Case scene;
+  SoilCase soil;
+  soil.name = "sand";
+  soil.polygon = {{0, 0}, {width, 0}, {width, height}, {0, height}};
+  soil.youngs_modulus = 15e6;
+  soil.poissons_ratio = 0.33;
+  soil.porosity = 0.4;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated = 20e3;
+  if (mode == WaterMode::coupled) soil.permeability = {1e-3, 1e-3};
+  scene.soils = {soil};
+  scene.water.mode = mode;
+  scene.water.coupling.motion = WaterMotion::dynamic;
+  scene.water.stretches = {{-never, never, height + 0.5}};
+  scene.particles.spacing = height / rows;
+  scene.particles.arrangement = Arrangement::lattice;
+  scene.particles.smoothing_ratio = 1;
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, height}},
+                      {BoundaryKind::roller, {width, 0}, {width, height}},
+                      {BoundaryKind::fixed, {0, 0}, {width, 0}}};
+  scene.formulation = default_formulation(Motion::consistent);
+  scene.loading.k0_stress = true;
+  scene.time.courant = 0.9;
+  return scene;
+}
+
+void load_top(Case& scene, double pressure) {
+  const Polygon& outline = scene.soils[0].polygon;
+  LoadCase q;
+  q.name = "q", q.from = outline[3], q.to = outline[2];
+  q.pressure = q.pressure_to = pressure;
+  scene.loads = {q};
+}
+
+void run_to_end(Simulation& s) {
+  while (s.step() < s.last_step() && !s.instability()) s.advance();
+  if (s.instability()) FAIL(s.instability()->message);
+}
+
+double modulus_of(const Case& scene) {
+  const double e = scene.soils[0].youngs_modulus, nu = scene.soils[0].poissons_ratio;
+  return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+}
+
+constexpr double load = 10e3;
+
+}  // namespace
+
+TEST_CASE("a step load runs down a column as an undrained wave of Biot", "[water][dynamic]") {
+  Case scene = column(10, 100, WaterMode::undrained);
+  load_top(scene, load);
+  const double water = scene.water.coupling.bulk_modulus / 0.4, all = modulus_of(scene) + water;
+  const double density = 20e3 / 9.81, speed = std::sqrt(all / density), carried = water / all;
+  scene.time.end = 0.004, scene.time.courant = 0.045;  // 0.7 of the undrained wave's
+  Simulation s(scene);
+  run_to_end(s);
+  const Particles& p = s.model().particles;
+  const auto velocity = s.velocities();
+  std::vector<std::pair<double, double>> profile;  // depth, p over the load
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    if (p.start[a].x() > 0.1) continue;
+    const double depth = 10 - p.start[a].y();
+    profile.emplace_back(depth, -s.water_in_motion()->excess()[a] / load);
+    if (depth < 0.5 || depth > 2.5) continue;  // away from the load's edge and from the front
+    CHECK(profile.back().second == Approx(carried).epsilon(1e-3));
+    CHECK(-velocity[a].y() * density * speed / load == Approx(1).epsilon(1e-3));
+  }
+  std::ranges::sort(profile);
+  const auto front =
+      std::ranges::find_if(profile, [&](const auto& at) { return at.first > 1 && at.second < carried / 2; });
+  CHECK(front->first == Approx(speed * s.time()).margin(0.1));  // a spacing
+}
+
+TEST_CASE("neither permeability nor stiffness of the water changes the steps of soil in motion",
+          "[water][dynamic]") {
+  std::int64_t steps = 0;
+  for (const double k : {1e-12, 1e-6, 1e-2})
+    for (const double bulk_modulus : {1e6, 2.2e9, CouplingCase::incompressible}) {
+      Case scene = column(4, 20, WaterMode::coupled);
+      load_top(scene, load);
+      scene.soils[0].permeability = {k, k};
+      scene.water.coupling.bulk_modulus = bulk_modulus;
+      scene.time.end = 0.5;
+      Simulation s(scene);
+      run_to_end(s);
+      CAPTURE(k, bulk_modulus);
+      CHECK((steps == 0 || s.step() == steps));
+      steps = s.step();
+      CHECK(s.water_in_motion()->misfit() < 1e-6);
+      CHECK(std::abs(s.water_in_motion()->imbalance()) < 1e-12);
+      CHECK(s.largest_displacement() < 0.01);
+    }
+}
+
+TEST_CASE("soil in motion consolidates as Terzaghi has it where inertia is small", "[water][dynamic]") {
+  constexpr double height = 4, factor = 0.2;
+  Case scene = column(height, 20, WaterMode::coupled);
+  load_top(scene, load);
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.time.end = factor * height * height * scene.water.unit_weight / (1e-3 * modulus_of(scene));
+  Simulation s(scene);
+  run_to_end(s);
+  double error = 0, size = 0;
+  for (std::size_t a = 0; a < s.model().particles.size(); ++a) {
+    const double depth = 1 - s.model().particles.start[a].y() / height;
+    double exact = 0;
+    for (int m = 0; m < 100; ++m) {
+      const double root = (2 * m + 1) * std::numbers::pi / 2;
+      exact += 2 / root * std::sin(root * depth) * std::exp(-root * root * factor);
+    }
+    error += std::pow(-s.water_in_motion()->excess()[a] / load - exact, 2), size += exact * exact;
+  }
+  CHECK(std::sqrt(error / size) < 0.003);
+}
+
+TEST_CASE("a closed block of soil and water makes no energy", "[water][dynamic]") {
+  Case scene = column(4, 20, WaterMode::undrained);
+  scene.soils[0].polygon = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 4}}, {BoundaryKind::roller, {0, 0}, {4, 0}}};
+  scene.loading.k0_stress = false;  // falls into its weight at once, and swings
+  scene.formulation.zero_energy_control = scene.formulation.bulk_viscosity = 0;
+  scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
+  scene.time.courant = 0.5, scene.time.end = 0.6;
+  Simulation s(scene);
+  const double start = s.energy().total();
+  double most = 0, early = 0;
+  while (s.step() < s.last_step()) {
+    s.advance();
+    REQUIRE(!s.instability());
+    const Simulation::Energy now = s.energy();
+    most = std::max(most, now.kinetic + now.elastic);
+    if (s.step() == s.last_step() / 3) early = (now.total() - start) / most;
+  }
+  const double late = (s.energy().total() - start) / most;
+  CAPTURE(early, late);
+  CHECK(std::abs(early) < 0.0015);  // what the sudden start leaves
+  CHECK(late <= early);             // and no gain after it,
+  CHECK(late - early > -0.0006);    // but what the implicit pressure damps in 400 steps
+}
+
+TEST_CASE("soil in motion goes on from a kept state to the same bits", "[water][dynamic]") {
+  Case scene = column(4, 10, WaterMode::coupled);
+  load_top(scene, load);
+  scene.formulation.refresh_strain = 1e-5;  // so that its reference is renewed before and after
+  scene.time.end = 0.5;
+  Simulation first(scene);
+  const int steps_before = GENERATE(1, 7, 60);
+  for (int k = 0; k < steps_before; ++k) first.advance();
+  const KeptState kept(first);
+  run_to_end(first);
+  REQUIRE(first.water_in_motion()->counts().renewals > 1);
+  Simulation second(scene);
+  kept.restore(second);
+  run_to_end(second);
+  CHECK(second.model().particles.position == first.model().particles.position);
+  CHECK(second.model().particles.pore_pressure == first.model().particles.pore_pressure);
+  CHECK(std::ranges::equal(second.water_in_motion()->head(), first.water_in_motion()->head()));
+  CHECK(second.water_in_motion()->drained() == first.water_in_motion()->drained());
+}
+
+namespace {
+
+/// A block between smooth platens that keeps its water, pressed on from above by a load that grows.
+Case pressed_block(double of_strength, WaterMotion motion) {
+  constexpr double side = 2, cohesion = 10e3;
+  Case scene = column(side, 10, WaterMode::undrained);
+  SoilCase& soil = scene.soils[0];
+  soil.polygon = {{0, 0}, {side, 0}, {side, side}, {0, side}};
+  soil.law = LawKind::mohr_coulomb;
+  soil.strength.cohesion = cohesion, soil.strength.friction_angle = 25;
+  soil.unit_weight_saturated = soil.unit_weight_unsaturated =
+      scene.water.unit_weight;  // no weight of its own
+  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, side}}, {BoundaryKind::roller, {0, 0}, {side, 0}}};
+  const double strength = 2 * cohesion * std::cos(25 * std::numbers::pi / 180);  // q = 2 s_u, p'_0 = 0
+  load_top(scene, of_strength * strength);
+  scene.loads[0].over_time = {{0, 0}, {1, 1}};
+  scene.water.coupling.motion = motion;
+  scene.time.end = 1.5;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a block that keeps its water fails in motion at its undrained strength", "[water][dynamic]") {
+  Simulation below(pressed_block(0.93, WaterMotion::dynamic)),
+      above(pressed_block(1.07, WaterMotion::dynamic));
+  run_to_end(below);
+  while (above.step() < above.last_step() && !above.instability()) above.advance();
+  CHECK(below.largest_displacement() < 0.01);
+  CHECK(above.largest_displacement() > 0.05);
+}
+
+TEST_CASE("a block at rest fails and moves on in the same run", "[water][dynamic]") {
+  Case scene = pressed_block(1.3, WaterMotion::automatic);
+  scene.water.coupling.first_step = 0.1, scene.water.coupling.motion_time = 0.3;
+  scene.water.coupling.motion_interval = 0.1;
+  Simulation s(scene);
+  const auto go_on = [](Simulation& run) {
+    while (run.step() < run.last_step() && !run.instability()) run.advance();
+  };
+  while (!s.water_in_motion() && !s.instability() && s.step() < s.last_step()) s.advance();
+  REQUIRE(s.water_in_motion() != nullptr);
+  CHECK(s.failed_at() / 1.0 * 1.3 == Approx(1).epsilon(0.15));
+  const double moved = s.largest_displacement();
+  for (int k = 0; k < 5; ++k) s.advance();
+  const KeptState kept(s);
+  go_on(s);
+  CHECK(s.time() == Approx(s.failed_at() + 0.3));
+  CHECK(s.largest_displacement() > 2 * moved);
+  Simulation second(scene);
+  kept.restore(second);
+  go_on(second);
+  CHECK(second.model().particles.position == s.model().particles.position);
+}
