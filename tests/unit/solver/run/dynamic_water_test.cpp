@@ -178,7 +178,7 @@ TEST_CASE("soil in motion goes on from a kept state to the same bits", "[water][
 namespace {
 
 /// A block between smooth platens that keeps its water, pressed on from above by a load that grows.
-Case pressed_block(double of_strength, WaterMotion motion) {
+Case pressed_block(double of_strength) {
   constexpr double side = 2, cohesion = 10e3;
   Case scene = column(side, 10, WaterMode::undrained);
   SoilCase& soil = scene.soils[0];
@@ -191,7 +191,6 @@ Case pressed_block(double of_strength, WaterMotion motion) {
   const double strength = 2 * cohesion * std::cos(25 * std::numbers::pi / 180);  // q = 2 s_u, p'_0 = 0
   load_top(scene, of_strength * strength);
   scene.loads[0].over_time = {{0, 0}, {1, 1}};
-  scene.water.coupling.motion = motion;
   scene.time.end = 1.5;
   return scene;
 }
@@ -199,33 +198,9 @@ Case pressed_block(double of_strength, WaterMotion motion) {
 }  // namespace
 
 TEST_CASE("a block that keeps its water fails in motion at its undrained strength", "[water][dynamic]") {
-  Simulation below(pressed_block(0.93, WaterMotion::dynamic)),
-      above(pressed_block(1.07, WaterMotion::dynamic));
+  Simulation below(pressed_block(0.93)), above(pressed_block(1.07));
   run_to_end(below);
   while (above.step() < above.last_step() && !above.instability()) above.advance();
   CHECK(below.largest_displacement() < 0.01);
   CHECK(above.largest_displacement() > 0.05);
-}
-
-TEST_CASE("a block at rest fails and moves on in the same run", "[water][dynamic]") {
-  Case scene = pressed_block(1.3, WaterMotion::automatic);
-  scene.water.coupling.first_step = 0.1, scene.water.coupling.motion_time = 0.3;
-  scene.water.coupling.motion_interval = 0.1;
-  Simulation s(scene);
-  const auto go_on = [](Simulation& run) {
-    while (run.step() < run.last_step() && !run.instability()) run.advance();
-  };
-  while (!s.water_in_motion() && !s.instability() && s.step() < s.last_step()) s.advance();
-  REQUIRE(s.water_in_motion() != nullptr);
-  CHECK(s.failed_at() / 1.0 * 1.3 == Approx(1).epsilon(0.15));
-  const double moved = s.largest_displacement();
-  for (int k = 0; k < 5; ++k) s.advance();
-  const KeptState kept(s);
-  go_on(s);
-  CHECK(s.time() == Approx(s.failed_at() + 0.3));
-  CHECK(s.largest_displacement() > 2 * moved);
-  Simulation second(scene);
-  kept.restore(second);
-  go_on(second);
-  CHECK(second.model().particles.position == s.model().particles.position);
 }
