@@ -200,6 +200,21 @@ void add_marks(ContourPanel& panel, const Frame& frame, const Options& o) {
   }
 }
 
+void check_arrows(const std::string& field) {
+  static const std::array<std::string_view, 4> vectors{"Displacement", "Velocity", "DarcyVelocity",
+                                                       "HydraulicGradient"};
+  if (!field.empty() && std::ranges::find(vectors, field) == vectors.end())
+    throw UsageError(fmt::format("--arrows = {}: must be {}", field, fmt::join(vectors, ", ")));
+}
+
+/// Makes the folder, saves there, and tells where that is.
+template <class Save>
+void saved_at(const fs::path& path, Save&& save) {
+  if (path.has_parent_path()) make_folder(path.parent_path());
+  save(path);
+  std::cout << path.string() << '\n';
+}
+
 }  // namespace
 
 int render_command(const Arguments& arguments) {
@@ -207,10 +222,7 @@ int render_command(const Arguments& arguments) {
   if (!o) return Exit::done;
   const FieldSelection selection = parse_selection(o->field);
   const FieldStyle style = read_style(o->style);
-  static const std::array<std::string_view, 4> vectors{"Displacement", "Velocity", "DarcyVelocity",
-                                                       "HydraulicGradient"};
-  if (!o->arrows.empty() && std::ranges::find(vectors, o->arrows) == vectors.end())
-    throw UsageError(fmt::format("--arrows = {}: must be {}", o->arrows, fmt::join(vectors, ", ")));
+  check_arrows(o->arrows);
   FinishedRun run = open_run(o->series);
   if (!o->label.empty()) run.label = o->label;
   const std::vector<std::size_t> frames = choose_frames(run.series, o->times);
@@ -241,27 +253,18 @@ int render_command(const Arguments& arguments) {
     figure.panels = {panel_at(i)};
     return figure;
   };
-  if (is_film(*o)) {
-    const fs::path path = o->out;
-    if (path.has_parent_path()) make_folder(path.parent_path());
-    save_film(
-        frames.size(),
-        [&](std::size_t i) {
-          ContourFigure figure = figure_of(frames[i]);
-          figure.include = spread.corners;
-          return figure;
-        },
-        o->rate, path);
-    std::cout << path.string() << '\n';
-    return Exit::done;
-  }
   const auto save = [&](const ContourFigure& figure, std::size_t frame) {
-    const fs::path path = picture_path(*o, run, selection, frame);
-    if (path.has_parent_path()) make_folder(path.parent_path());
-    save_contours(figure, path);
-    std::cout << path.string() << '\n';
+    saved_at(picture_path(*o, run, selection, frame),
+             [&](const fs::path& path) { save_contours(figure, path); });
   };
-  if (o->times.size() > 1) {
+  if (is_film(*o)) {
+    const auto moment = [&](std::size_t i) {
+      ContourFigure figure = figure_of(frames[i]);
+      figure.include = spread.corners;
+      return figure;
+    };
+    saved_at(o->out, [&](const fs::path& path) { save_film(frames.size(), moment, o->rate, path); });
+  } else if (o->times.size() > 1) {
     for (const std::size_t i : frames) empty.panels.push_back(panel_at(i));
     save(empty, frames[0]);
   } else {

@@ -68,6 +68,24 @@ WorkPoint point_of(const Measured& m) {
           .settled = spread_of(m.settled)};
 }
 
+/// The plan's case; nothing where it has to be left out, which is told.
+std::optional<Case> affordable(Bench& bench, const Plan& plan, const Expectation& expectation) {
+  const std::filesystem::path file = bench.options().cases / plan.file();
+  if (!std::filesystem::exists(file)) {
+    bench.leave_out(name_of(plan), "there is no " + file.string());
+    return std::nullopt;
+  }
+  Case scene = read(bench, plan.file(), plan.overrides());
+  const Simulation trial(scene);
+  const auto n = static_cast<std::int64_t>(trial.model().particles.size());
+  if (n > bench.options().particles) {
+    bench.leave_out(name_of(plan), fmt::format("{} particles are more than --particles", n));
+    return std::nullopt;
+  }
+  if (!bench.affords(name_of(plan), expectation.seconds(plan, trial), until)) return std::nullopt;
+  return scene;
+}
+
 }  // namespace
 
 const WorkPoint* WorkPrecision::find(const std::string& scene, const std::string& form,
@@ -107,19 +125,9 @@ WorkPrecision measure_work_precision(Bench& bench) {
       too_late.push_back(name_of(plan));
       continue;
     }
-    if (!std::filesystem::exists(bench.options().cases / plan.file())) {
-      bench.leave_out(name_of(plan), "there is no " + (bench.options().cases / plan.file()).string());
-      continue;
-    }
-    const Case scene = read(bench, plan.file(), plan.overrides());
-    const Simulation trial(scene);
-    if (const auto n = static_cast<std::int64_t>(trial.model().particles.size());
-        n > bench.options().particles) {
-      bench.leave_out(name_of(plan), fmt::format("{} particles are more than --particles", n));
-      continue;
-    }
-    if (!bench.affords(name_of(plan), expectation.seconds(plan, trial), until)) continue;
-    all.push_back({.plan = plan, .scene = scene, .run = {}, .seconds = {}, .settled = {}});
+    const std::optional<Case> scene = affordable(bench, plan, expectation);
+    if (!scene) continue;
+    all.push_back({.plan = plan, .scene = *scene, .run = {}, .seconds = {}, .settled = {}});
     if (!measure(all.back())) {
       bench.leave_out(name_of(plan), "had not ended when the time was up");
       all.pop_back();

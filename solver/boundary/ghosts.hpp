@@ -71,6 +71,11 @@ class Ghosts {
     for (const std::size_t i : of_ghosts_)
       if (i >= first) use(i);
   }
+  /// Appends where they are now to where the particles are [m].
+  void fill_positions(std::vector<Vec2>& points) const {
+    points.resize(particles_ + size());
+    for_each([&](std::size_t i) { points[particles_ + i] = wall(i).mirrored(points[parent(i)]); });
+  }
   /// Only those that stem from ghosts.
   std::span<const std::size_t> of_ghosts() const { return of_ghosts_; }
 

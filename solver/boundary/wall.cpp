@@ -54,6 +54,15 @@ bool met_at(const Vec2& end, const Wall& self, std::span<const Wall> walls) {
   });
 }
 
+/// An end that is also one of a later wall in line, which holds the same side of the soil.
+bool passed_on_at(const Vec2& end, const Wall& self, std::span<const Wall> later) {
+  return std::ranges::any_of(later, [&](const Wall& other) {
+    const double near = 1e-6 * (self.to - self.from).norm();
+    const bool meets = (other.from - end).norm() < near || (other.to - end).norm() < near;
+    return meets && self.normal.dot(other.normal) > 1 - 1e-9;
+  });
+}
+
 }  // namespace
 
 bool Wall::faces(const Vec2& p, double range, double beyond) const {
@@ -61,8 +70,11 @@ bool Wall::faces(const Vec2& p, double range, double beyond) const {
   if (away < on_line * range || away >= range) return false;
   const Vec2 line = to - from;
   const double length = line.norm(), along = (p - from).dot(line) / length, slack = on_line * range;
-  return along >= (continued_at_from ? -range : -slack - beyond) &&
-         along < (continued_at_to ? length + range : length - slack + beyond);
+  const auto past = [&](bool continued, bool passed_on) {
+    return continued ? range : beyond + (passed_on ? -slack : slack);
+  };
+  return along >= -past(continued_at_from, passed_on_at_from) &&
+         along <= length + past(continued_at_to, passed_on_at_to);
 }
 
 std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::span<const Vec2> points,
@@ -78,9 +90,13 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
   const auto rank = [](const Wall& w) { return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : 2; };
   std::stable_sort(walls.begin(), walls.end(),
                    [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
-  for (Wall& wall : walls) {
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    Wall& wall = walls[w];
     wall.continued_at_from = met_at(wall.from, wall, walls);
     wall.continued_at_to = met_at(wall.to, wall, walls);
+    const std::span<const Wall> later = std::span(walls).subspan(w + 1);
+    wall.passed_on_at_from = passed_on_at(wall.from, wall, later);
+    wall.passed_on_at_to = passed_on_at(wall.to, wall, later);
   }
   return walls;
 }

@@ -20,6 +20,8 @@ struct Wall {
   bool bears_weight = false;  ///< stress changes across it: fixed, or gravity acts through it
   bool continued_at_from = false,
        continued_at_to = false;  ///< another wall meets this one there, at an angle
+  bool passed_on_at_from = false,
+       passed_on_at_to = false;  ///< a later wall, in line with this one, mirrors what lies just at that end
 
   double distance(const Vec2& p) const {
     return (p - from).dot(normal);

@@ -26,20 +26,7 @@ double default_smoothing_ratio(Arrangement arrangement) {
   return fits ? 1 : 1.2;
 }
 
-}  // namespace
-
-std::string Range::text() const {
-  const std::string low = min == -never ? "" : fmt::format("{} {:.6g}", min_included ? ">=" : ">", min);
-  const std::string high = max == never ? "" : fmt::format("{} {:.6g}", max_included ? "<=" : "<", max);
-  if (low.empty() && high.empty()) return "any";
-  return low + (low.empty() || high.empty() ? "" : " and ") + high;
-}
-
-std::string_view arrangement_name(Arrangement arrangement) {
-  return arrangements[static_cast<std::size_t>(arrangement)];
-}
-
-void declare(Fields& f, Case& c) {
+void declare_names(Fields& f, Case& c) {
   f.text(Key("title", "", "Shown on pictures and reports."), c.title);
   f.text(Key("label", "",
              "Names the run in pictures, comparisons and reports, where `--label` does not; else its folder "
@@ -56,6 +43,23 @@ void declare(Fields& f, Case& c) {
           "with particles in the same way, keep their stress, displacement and what they remember.")
           .otherwise("none"),
       c.start_from);
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  const std::string low = min == -never ? "" : fmt::format("{} {:.6g}", min_included ? ">=" : ">", min);
+  const std::string high = max == never ? "" : fmt::format("{} {:.6g}", max_included ? "<=" : "<", max);
+  if (low.empty() && high.empty()) return "any";
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+std::string_view arrangement_name(Arrangement arrangement) {
+  return arrangements[static_cast<std::size_t>(arrangement)];
+}
+
+void declare(Fields& f, Case& c) {
+  declare_names(f, c);
   f.table(Key("particles", "", "How particles fill the soils."), c.particles);
   f.tables(Key("soil", "", "A soil: where it is and what it is.").required(), c.soils);
   f.table(Key("water", "",

@@ -151,6 +151,35 @@ void declare_cam_clay(Fields& f, bool used, CamClayCase& c) {
       c.attraction, above(0, stiffest));
 }
 
+void declare_pores(Fields& f, SoilCase& c) {
+  const double upright = c.permeability.y();
+  f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")
+               .otherwise("none"),
+           c.permeability.x(), above(0, most_permeable));
+  f.set_defaults([&] { c.permeability.y() = upright > 0 ? upright : c.permeability.x(); });
+  f.number(Key("permeability_vertical", "m/s", "The same along y, in soil that is anisotropic.")
+               .only_if(c.permeability.x() > 0, "permeability")
+               .otherwise("as permeability"),
+           c.permeability.y(), above(0, most_permeable));
+  f.number(Key("porosity", "",
+               "Part of the soil that is pores: what water fills, and what gives way with its volume.")
+               .only_if(c.permeability.x() > 0, "permeability")
+               .otherwise("0.4"),
+           c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
+}
+
+/// At the start.
+void declare_motion(Fields& f, SoilCase& c) {
+  f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
+  f.number(Key("angular_velocity", "rad/s",
+               "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
+           c.angular_velocity, between(-1e6, 1e6));
+  f.number(Key("bending_velocity", "m/s",
+               "Vibration at the start: upwards at the right end of a plate that is clamped at its left end, "
+               "elsewhere in the shape of the first bending mode. For an upright rectangle."),
+           c.bending_velocity, between(-1e6, 1e6));
+}
+
 }  // namespace
 
 std::string_view law_name(LawKind law) { return laws[static_cast<std::size_t>(law)]; }
@@ -196,28 +225,8 @@ void declare(Fields& f, SoilCase& c) {
          c.no_tension);
   declare_strength(f, c.law, c.strength);
   declare_cam_clay(f, c.law == LawKind::cam_clay, c.cam_clay);
-  const double upright = c.permeability.y();
-  f.number(Key("permeability", "m/s", "Hydraulic conductivity k of the saturated soil, where water flows.")
-               .otherwise("none"),
-           c.permeability.x(), above(0, most_permeable));
-  f.set_defaults([&] { c.permeability.y() = upright > 0 ? upright : c.permeability.x(); });
-  f.number(Key("permeability_vertical", "m/s", "The same along y, in soil that is anisotropic.")
-               .only_if(c.permeability.x() > 0, "permeability")
-               .otherwise("as permeability"),
-           c.permeability.y(), above(0, most_permeable));
-  f.number(Key("porosity", "",
-               "Part of the soil that is pores: what water fills, and what gives way with its volume.")
-               .only_if(c.permeability.x() > 0, "permeability")
-               .otherwise("0.4"),
-           c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
-  f.point(Key("velocity", "m/s", "Velocity at the start."), c.velocity);
-  f.number(Key("angular_velocity", "rad/s",
-               "Rotation at the start: counter-clockwise, about the middle of the polygon's bounding box."),
-           c.angular_velocity, between(-1e6, 1e6));
-  f.number(Key("bending_velocity", "m/s",
-               "Vibration at the start: upwards at the right end of a plate that is clamped at its left end, "
-               "elsewhere in the shape of the first bending mode. For an upright rectangle."),
-           c.bending_velocity, between(-1e6, 1e6));
+  declare_pores(f, c);
+  declare_motion(f, c);
   f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,
           c.retention.model != RetentionModel::saturated);
 }

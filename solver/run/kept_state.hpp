@@ -15,6 +15,8 @@ class KeptState {
   /// bits. Strength that was reduced is not part of it. Throws StateError where the case is another.
   void restore(Simulation& simulation) const;
 
+  bool operator==(const KeptState&) const = default;
+
  private:
   std::vector<std::byte> bytes_;
 };

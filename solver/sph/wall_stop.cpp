@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace porosph {
 namespace {
@@ -44,6 +45,7 @@ Vec2 WallStop::velocity_after(const Model& model, const Watched& watched, Vec2 v
 }
 
 void WallStop::apply(const Model& model, std::span<Vec2> accelerations) {
+  taken_next_ = 0;
   if (step_ == 0) return;
   const Particles& p = model.particles;
   for (const Watched& watched : watched_) {
@@ -52,8 +54,13 @@ void WallStop::apply(const Model& model, std::span<Vec2> accelerations) {
     const Vec2 velocity = velocity_after(model, watched, free);
     if (velocity == free) continue;
     accelerations[a] = (velocity - p.velocity[a]) / step_;
-    work_ += 0.5 * p.mass[a] * (free - velocity).dot(p.velocity[a] + velocity);
+    taken_next_ += 0.5 * p.mass[a] * (free - velocity).dot(p.velocity[a] + velocity);
   }
+}
+
+void WallStop::stepped(double dt) {
+  work_ += std::exchange(taken_next_, 0);
+  step_ = dt;
 }
 
 void WallStop::visit(StateArchive& state) {

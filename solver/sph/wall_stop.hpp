@@ -19,10 +19,10 @@ class WallStop {
   void clear() { watched_.clear(); }
   void watch(std::int32_t particle, double nearest) { watched_.push_back({particle, nearest}); }  ///< [m]
 
-  void apply(const Model& model, std::span<Vec2> accelerations);  ///< [m/s2]
-
-  void remember_step(double dt) { step_ = dt; }  ///< of the next accelerations [s]; none before the first
-  double work() const { return work_; }          ///< that walls have so taken [J/m]
+  /// Of the step that begins; may be called again for the same one. Does nothing before the first [m/s2].
+  void apply(const Model& model, std::span<Vec2> accelerations);
+  void stepped(double dt);               ///< ends it; the next one is as long [s]
+  double work() const { return work_; }  ///< that walls have so taken [J/m]
   void visit(StateArchive& state);
 
  private:
@@ -33,7 +33,7 @@ class WallStop {
   Vec2 velocity_after(const Model& model, const Watched& watched, Vec2 velocity) const;
 
   std::vector<Watched> watched_;
-  double step_ = 0, work_ = 0;
+  double step_ = 0, work_ = 0, taken_next_ = 0;
 };
 
 }  // namespace porosph

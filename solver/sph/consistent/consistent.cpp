@@ -51,9 +51,9 @@ void ConsistentDynamics::prepare() {
   if (!reference_.made())
     flow_ = FlowingSoil(model_, control_.viscosity);
   else if (flow_.active())
-    flow_.settle(model_, surroundings_);
+    flow_.settle(model_, reference_);
   rebuild_reference();
-  fluxes_.take_velocities(reference_, model_.particles);
+  take_velocities();
   strain_all(0);
   since_ = {};
   ++counts.refreshes;
@@ -115,9 +115,14 @@ bool ConsistentDynamics::strangers_are_near() {
   const double looked_at_after = flow_.has_flowed() ? 0.1 : 0.05;
   if (since_.travel <= looked_at_after * model_.spacing) return false;
   since_.travel = 0;
-  const bool found = surroundings_.strangers_are_near(model_, reference_.stencils);
+  const bool found = surroundings_.strangers_are_near(model_, reference_.stencils, reference_.points);
   counts.searches = surroundings_.searches();
   return found;
+}
+
+void ConsistentDynamics::take_velocities() {
+  fluxes_.take_velocities(reference_, model_.particles);
+  if (flow_.active()) flow_.take_velocities(reference_, model_.particles);
 }
 
 /// Carries all particles over a step dt with the velocities taken; dt = 0 only writes the fluxes.
@@ -134,7 +139,7 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
     if (flow_.active()) of_tile[tile] = {largest.plastic_work, largest.viscous_work};
   }
   for (const auto& [plastic, viscous] : of_tile) flow_.add_dissipation(plastic, viscous);
-  if (flow_.active()) flow_.leave_out_walls(reference_, model_.particles, fluxes_.flux(), fluxes_.records());
+  if (flow_.active()) flow_.leave_out_walls(reference_, fluxes_.flux(), fluxes_.records());
   return {strain, speed_squared};
 }
 
@@ -179,14 +184,13 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::strain(double dt) {
   if (flow_.active()) {
-    flow_.loose().walls().remember_step(dt);
+    flow_.loose().walls().stepped(dt);
     flow_.count_work(reference_, model_.particles, dt);
     if (friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(model_, kernels_, arrays_);
   }
-  fluxes_.take_velocities(reference_, model_.particles);
-  const double at_walls =
-      flow_.active() ? flow_.deform_at_walls(reference_, model_.particles, dt, fluxes_.deformation()) : 0;
+  take_velocities();
+  const double at_walls = flow_.active() ? flow_.deform_at_walls(dt, fluxes_.deformation()) : 0;
   const LargestChange largest = strain_all(dt);
   since_.strain = std::max(at_walls, largest.strain);
   if (friction_.active()) friction_.slide(model_, dt);
@@ -216,7 +220,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
     rebuild_reference();
     p.position.swap(positions), p.density.swap(densities);
     connect_arrays();
-    fluxes_.take_velocities(reference_, p);
+    take_velocities();
   }
   surroundings_.visit(state, model_);
   fluxes_.visit(state, reference_);

@@ -46,6 +46,7 @@ class ConsistentDynamics final : public Dynamics {
   void rebuild_reference();
   void connect_arrays();
   bool strangers_are_near();
+  void take_velocities();
   LargestChange strain_all(double dt);
   Mat2 own_strain(std::size_t particle) const;
 

@@ -5,7 +5,7 @@
 
 #include "solver/space/parallel.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
-#include "solver/sph/kernel/cubic_spline.hpp"
+#include "solver/sph/kernels/pair_weights.hpp"
 
 namespace porosph {
 namespace {
@@ -64,9 +64,10 @@ double energy_beyond_linear(const Model& model) {
   });
 }
 
-void FlowingSoil::settle(Model& model, Surroundings& surroundings) {
-  has_flowed_ = true;
-  even_out(model, surroundings.find(model));
+void FlowingSoil::settle(Model& model, const ReferenceConfiguration& reference) {
+  has_flowed_ = has_flowed_ || diffusion_.has_sheared();
+  even_out(model, reference);
+  diffusion_.forget_shear();
   update_density(model);
 }
 
@@ -81,36 +82,68 @@ void FlowingSoil::update_density(Model& model) const {
   }
 }
 
-/// Inside the soil down the gradient of sum V W (Lind et al. 2012), not near its surface; and pairs that are
-/// nearer than half of the spacing apart, also from their images.
-void FlowingSoil::even_out(Model& model, const SeenNeighbours& seen) {
-  constexpr double strength = 0.5, farthest = 0.1, inside = 0.95, share = 0.1;
+namespace {
+
+/// Where a particle is to move, by where its neighbours are.
+struct Crowd {
+  Vec2 gradient = Vec2::Zero();  ///< of sum V W [1/m]
+  Vec2 apart = Vec2::Zero();     ///< from those that are too near [m]
+  bool is_inside = false;        ///< the soil, not near its surface
+};
+
+Crowd crowd_around(std::int32_t a, std::span<const std::int32_t> neighbours, std::span<const Vec2> points,
+                   const WeighedPoints<2>& weighed, double nearest) {
+  constexpr double inside = 0.95, share = 0.1;
+  const std::span<const double> weights = weights_of(a, neighbours, weighed);
+  Crowd crowd;
+  Mat2 sum = Mat2::Zero();
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const Vec2 way = points[neighbours[k]] - points[a], g = weights[k] * way;
+    crowd.gradient += g, sum += g * way.transpose();
+    const double squared = way.squaredNorm();
+    if (squared > 0 && squared < nearest * nearest)
+      crowd.apart -= share * (nearest / std::sqrt(squared) - 1) * way;
+  }
+  const double half = 0.5 * (sum(0, 0) - sum(1, 1));
+  const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::sqrt(half * half + sum(0, 1) * sum(0, 1));
+  crowd.is_inside = least > inside;
+  return crowd;
+}
+
+}  // namespace
+
+/// Soil that has flowed since the last reference: inside it down the gradient of sum V W (Lind et al. 2012),
+/// not near its surface; and pairs that are nearer than half of the spacing apart, also from their images.
+/// Elastic strain leaves particles where they are in the soil. Neighbours are those of the reference that
+/// ends: what is near to become one, at the rim of the kernel, hardly counts.
+void FlowingSoil::even_out(Model& model, const ReferenceConfiguration& r) {
+  constexpr double strength = 0.5;
   Particles& p = model.particles;
-  const CubicSpline<2> kernel(model.smoothing_length);
   const std::size_t n = p.size();
-  std::vector<Vec2> moves(n, Vec2::Zero());
-  const double dx = model.spacing, nearest = 0.5 * dx, h2 = model.smoothing_length * model.smoothing_length;
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < n; ++a) {
-    if (!model.soils[p.soil[a]].flows()) continue;
-    Vec2 crowd = Vec2::Zero(), apart = Vec2::Zero();
-    Mat2 sum = Mat2::Zero();
-    for (const std::int32_t b : seen.list.of(a)) {
-      const std::size_t root = static_cast<std::size_t>(b) < n ? b : seen.ghosts.root(b - n);
-      const Vec2 way = seen.points[b] - seen.points[a];
-      const double distance = way.norm(), volume = p.volume(root) / p.fill[root];
-      const Vec2 g = -volume * kernel.slope(distance) * way;
-      crowd += g, sum += g * way.transpose();
-      if (distance > 0 && distance < nearest) apart -= share * (nearest / distance - 1) * way;
-    }
-    const double half = 0.5 * (sum(0, 0) - sum(1, 1));
-    const double least = 0.5 * (sum(0, 0) + sum(1, 1)) - std::sqrt(half * half + sum(0, 1) * sum(0, 1));
-    if (least > inside) {
-      const Vec2 move = -strength * h2 * crowd;
+  std::vector<Vec2> moves(n, Vec2::Zero()), points = p.position;
+  r.ghosts.fill_positions(points);
+  std::vector<double> volumes(n);
+  for (std::size_t a = 0; a < n; ++a) volumes[a] = p.volume(a) / p.fill[a];
+  r.ghosts.fill<Mirrors::scalar>(volumes);
+  const WeighedPoints<2> weighed{points.data()->data(), volumes.data(),
+                                 CubicSpline<2>(model.smoothing_length)};
+  const double farthest = 0.1 * model.spacing, h2 = model.smoothing_length * model.smoothing_length;
+#pragma omp parallel
+  {
+    std::vector<std::int32_t> room;
+#pragma omp for schedule(static)
+    for (std::size_t a = 0; a < n; ++a) {
+      const bool has_flowed = diffusion_.has_sheared(a) || loose_.is(a);
+      if (!has_flowed || !model.soils[p.soil[a]].flows()) continue;
+      const auto number = static_cast<std::int32_t>(a);
+      const Crowd crowd =
+          crowd_around(number, r.stencils.neighbours(number, room), points, weighed, 0.5 * model.spacing);
+      moves[a] = crowd.apart;
+      if (!crowd.is_inside) continue;
+      const Vec2 move = -strength * h2 * crowd.gradient;
       const double far = move.norm();
-      apart += far > farthest * dx ? Vec2(move * (farthest * dx / far)) : move;
+      moves[a] += far > farthest ? Vec2(move * (farthest / far)) : move;
     }
-    moves[a] = apart;
   }
   for (std::size_t a = 0; a < n; ++a) {
     const Vec2 move = short_of_walls(model, p.position[a], moves[a]);
@@ -149,49 +182,49 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
 }
 
-Mat2 FlowingSoil::own_gradient(const ReferenceConfiguration& r, const Particles& p, std::int32_t a) const {
+FlowingSoil::Gradients FlowingSoil::gradients(const ReferenceConfiguration& r, const Particles& p,
+                                              std::int32_t a) const {
   const auto n = static_cast<std::int32_t>(r.particles());
-  Mat2 sum = Mat2::Zero();
+  Mat2 soil = Mat2::Zero(), walls = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    if (b < n) sum += (p.velocity[b] - p.velocity[a]) * Eigen::RowVector2d(g.x, g.y);
+    const Eigen::RowVector2d way(g.x, g.y);
+    if (b < n)
+      soil += (p.velocity[b] - p.velocity[a]) * way;
+    else
+      walls += (r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[r.ghosts.root(b - n)])) -
+                p.velocity[a]) *
+               way;
   });
-  return sum * correction_[a].transpose();
+  return {soil * correction_[a].transpose(), (soil + walls) * r.correction[a].transpose()};
 }
 
-Mat2 FlowingSoil::gradient_with_walls(const ReferenceConfiguration& r, const Particles& p,
-                                      std::int32_t a) const {
-  const auto n = static_cast<std::int32_t>(r.particles());
-  Mat2 sum = Mat2::Zero();
-  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    const Vec2 v = b < n ? p.velocity[b]
-                         : r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[r.ghosts.root(b - n)]));
-    sum += (v - p.velocity[a]) * Eigen::RowVector2d(g.x, g.y);
-  });
-  return sum * r.correction[a].transpose();
+void FlowingSoil::take_velocities(const ReferenceConfiguration& r, const Particles& p) {
+  gradient_.resize(at_walls_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < at_walls_.size(); ++k) gradient_[k] = gradients(r, p, at_walls_[k]);
 }
 
-double FlowingSoil::deform_at_walls(const ReferenceConfiguration& r, const Particles& p, double dt,
-                                    PlaneTensors& deformation) const {
+double FlowingSoil::deform_at_walls(double dt, PlaneTensors& deformation) const {
   double largest = 0;
   if (!has_flowed_) return largest;
 #pragma omp parallel for schedule(static) reduction(max : largest)
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     if (loose_.is(a)) continue;
-    const Mat2 f = deformation[a] + dt * own_gradient(r, p, a);
+    const Mat2 f = deformation[a] + dt * gradient_[k].own;
     deformation.set(a, f);
     largest = std::max(largest, (f - Mat2::Identity()).cwiseAbs().maxCoeff());
   }
   return largest;
 }
 
-void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particles& p, PlaneTensors& flux,
+void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, PlaneTensors& flux,
                                   std::span<Record> records) const {
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     if (!blind_[a]) continue;
-    flux.set(a, flux[a] + viscosity_[a] * (gradient_with_walls(r, p, a) - own_gradient(r, p, a)));
+    flux.set(a, flux[a] + viscosity_[a] * (gradient_[k].with_walls - gradient_[k].own));
     if (!r.listed[a]) continue;
     for (int i = 0; i < 4; ++i) records[a].q[i] = flux.component[i][a];
   }
@@ -204,7 +237,7 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     // The kernels have summed this particle's half of each pair; the image's own half is left out there.
-    const Mat2 gradient = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+    const Mat2& gradient = blind_[a] ? gradient_[k].own : gradient_[k].with_walls;
     Vec2 half = Vec2::Zero();
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
       if (b < n || !is_fixed_image(r, b)) return;
@@ -224,8 +257,10 @@ void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& 
   const auto n = static_cast<std::int32_t>(r.particles());
   std::vector<Mat2> gradient(n);
 #pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a)
-    gradient[a] = blind_[a] ? own_gradient(r, p, a) : gradient_with_walls(r, p, a);
+  for (std::int32_t a = 0; a < n; ++a) {
+    const auto [own, with_walls] = gradients(r, p, a);
+    gradient[a] = blind_[a] ? own : with_walls;
+  }
   sample_.begin(p);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {

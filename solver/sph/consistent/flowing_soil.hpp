@@ -28,15 +28,16 @@ class FlowingSoil {
   bool has_flowed() const { return has_flowed_; }  ///< since the start a reference has been rebuilt
 
   /// Before a reference is rebuilt: density by the law, and particles moved to even out their arrangement.
-  void settle(Model& model, Surroundings& surroundings);
+  void settle(Model& model, const ReferenceConfiguration& reference);
   /// After that: what sums over the soil alone need.
   void take(const ReferenceConfiguration& reference, const Model& model);
 
+  /// The velocities that what follows is of.
+  void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
   /// F of particles at fixed walls, over a step dt [s], by the soil alone: soil that slides over images that
   /// do not move with it is sheared as the law sees it, but its neighbours stay in place. Returns the largest
   /// |F - I| there. In soil that has flowed only.
-  double deform_at_walls(const ReferenceConfiguration& reference, const Particles& particles, double dt,
-                         PlaneTensors& deformation) const;
+  double deform_at_walls(double dt, PlaneTensors& deformation) const;
 
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
@@ -45,8 +46,8 @@ class FlowingSoil {
 
   /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
   /// particle, after a step ...
-  void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
-                       PlaneTensors& flux, std::span<Record> records) const;
+  void leave_out_walls(const ReferenceConfiguration& reference, PlaneTensors& flux,
+                       std::span<Record> records) const;
   /// ... and takes the walls' pairs out of the accelerations [m/s2].
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
                        std::span<Vec2> accelerations) const;
@@ -81,17 +82,19 @@ class FlowingSoil {
 
  private:
   void update_density(Model& model) const;
-  void even_out(Model& model, const SeenNeighbours& seen);
-  Mat2 own_gradient(const ReferenceConfiguration& reference, const Particles& particles,
-                    std::int32_t a) const;
-  Mat2 gradient_with_walls(const ReferenceConfiguration& reference, const Particles& particles,
-                           std::int32_t a) const;
+  void even_out(Model& model, const ReferenceConfiguration& reference);
+  struct Gradients {
+    Mat2 own, with_walls;  ///< by the soil alone, and by ghosts as well
+  };
+  Gradients gradients(const ReferenceConfiguration& reference, const Particles& particles,
+                      std::int32_t a) const;  ///< of the velocity of particle a [1/s]
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
   std::vector<double> viscosity_;
   StressDiffusion diffusion_;
   std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
   std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
+  std::vector<Gradients> gradient_;     ///< of each of those
   std::vector<std::uint8_t> blind_;     ///< to those
   std::vector<double> deforms_;         ///< as in FlowView
   LooseParticles loose_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/sph/kernels/pair_weights.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
@@ -48,7 +49,7 @@ class Builder {
           const CubicSpline<Space::dim>& kernel, bool single)
       : points_(points),
         volumes_(volumes),
-        kernel_(kernel),
+        weighed_{points.data()->data(), volumes.data(), kernel},
         single_(single),
         count_(static_cast<std::int32_t>(list.begin.size()) - 1),
         list_(std::move(list)) {
@@ -96,15 +97,14 @@ class Builder {
   template <class Real, class Number>
   void write(std::int32_t a, std::int32_t* index, PairGeometryIn<Real, Space::dim>* geometry,
              Number&& number) const {
+    const auto neighbours = list_.of(a);
+    const std::span<const double> weights = weights_of(a, neighbours, weighed_);
     Geometry sum{};
-    std::size_t k = 1;
-    for (const std::int32_t b : list_.of(a)) {
-      const Vector to_b = points_[b] - points_[a];
-      const double w = -volumes_[b] * kernel_.slope(to_b.norm());
+    for (std::size_t i = 0, k = 1; i < neighbours.size(); ++i, ++k) {
+      const std::int32_t b = neighbours[i];
       index[k] = number(b);
-      geometry[k] = packed<Real>(Vector(w * to_b), w);
+      geometry[k] = packed<Real>(Vector(weights[i] * (points_[b] - points_[a])), weights[i]);
       add(geometry[k], sum);
-      ++k;
     }
     index[0] = number(a);
     geometry[0] = narrowed<Real>(sum);
@@ -161,7 +161,7 @@ class Builder {
 
   std::span<const Vector> points_;
   std::span<const double> volumes_;
-  CubicSpline<Space::dim> kernel_;
+  WeighedPoints<Space::dim> weighed_;
   bool single_;
   std::int32_t count_;
   NeighbourList list_;
@@ -177,6 +177,16 @@ bool PairStencilsIn<Space>::are_neighbours(std::int32_t a, std::int32_t b) const
     return std::binary_search(offset.begin() + stretches[s].pairs + 1,
                               offset.begin() + stretches[s].pairs_end, b - a);
   return std::binary_search(index.begin() + begin[a] + 1, index.begin() + begin[a + 1], b);
+}
+
+template <class Space>
+std::span<const std::int32_t> PairStencilsIn<Space>::neighbours(std::int32_t a,
+                                                                std::vector<std::int32_t>& room) const {
+  if (stretch_of[a] == own_list) return {index.data() + begin[a] + 1, index.data() + begin[a + 1]};
+  const Stretch& stretch = stretches[stretch_of[a]];
+  room.assign(offset.begin() + stretch.pairs + 1, offset.begin() + stretch.pairs_end);
+  for (std::int32_t& b : room) b += a;
+  return room;
 }
 
 template <class Space>

@@ -79,6 +79,8 @@ struct PairStencilsIn {
     }
   }
   bool are_neighbours(std::int32_t a, std::int32_t b) const;
+  /// The numbers of particle a's neighbours, in increasing order; `room`: for those of a shared stencil.
+  std::span<const std::int32_t> neighbours(std::int32_t a, std::vector<std::int32_t>& room) const;
 };
 
 using PairStencils = PairStencilsIn<Plane>;

@@ -43,10 +43,12 @@ class StressBehindWalls {
                             const std::vector<std::uint8_t>& left_out, double spans_the_plane);
   static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
                                 std::int32_t stencil);
-  bool too_thin(const OneSided& stencil) const;
+  double trust(const OneSided& stencil) const;  ///< 0 to 1
   void sum_gradients(const std::vector<PlaneTensor>& piola);
   Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t k,
                     const std::vector<PlaneTensor>& piola) const;
+  Mat2 continued(const ReferenceConfiguration& reference, std::size_t k,
+                 const std::vector<PlaneTensor>& piola) const;
 
   std::vector<std::size_t> extrapolated_, mirrored_;  ///< ghosts of bearing walls, and the others
   std::vector<Continued> continued_;                  ///< beside extrapolated_

@@ -35,15 +35,17 @@ bool StressDiffusion::take_strain() {
   bool any = false;
   for (std::size_t a = 0; a < sheared_.size(); ++a) {
     const double share = per_strain * std::exchange(sheared_[a], 0);
-    diffusivity_[a] = share > negligible && soil_[a] >= 0 ? share * length_squared_ : 0;
-    any = any || diffusivity_[a] > 0;
+    const bool shears = share > negligible && soil_[a] >= 0;
+    diffusivity_[a] = shears ? share * length_squared_ : 0;
+    has_sheared_[a] |= shears, any = any || shears;
   }
   return any;
 }
 
 double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& c) {
-  const bool counted = steps_++ % steps_between_counts == 0;
-  if (!take_strain()) return 0;
+  const bool due = steps_ % steps_between == 0, counted = steps_ % steps_between_counts == 0;
+  ++steps_;
+  if (!due || !take_strain()) return 0;
   Particles& p = model.particles;
   const std::int32_t tiles = c.reference.stencils->tiles();
 #pragma omp parallel for schedule(static)
@@ -59,7 +61,7 @@ double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, co
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a)
     if (near_[a]) p.stress[a] = p.stress[a] + change_[a];
-  return counted ? steps_between_counts * (before - energy()) : 0;
+  return counted ? steps_between_counts / steps_between * (before - energy()) : 0;
 }
 
 StressDiffusionView StressDiffusion::view() {
@@ -74,6 +76,7 @@ StressDiffusionView StressDiffusion::view() {
 
 void StressDiffusion::visit(StateArchive& state) {
   state.array("sheared", sheared_);
+  state.array("has_sheared", has_sheared_);
   state.value("diffusion_steps", steps_);
 }
 

@@ -1,6 +1,7 @@
 // Diffusion of the stress in soil that shears as it yields.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,18 +19,24 @@ namespace porosph {
 /// Particles of one soil share their stress; loose ones have none.
 class StressDiffusion {
  public:
+  static constexpr int steps_between = 2;  ///< what they shear is diffused at once
+
   StressDiffusion() = default;
-  explicit StressDiffusion(std::size_t particles) : sheared_(particles, 0) {}
+  explicit StressDiffusion(std::size_t particles) : sheared_(particles, 0), has_sheared_(particles, 0) {}
 
   /// For a new reference; `correction` is L of eq. (10) of the particles, by the soil alone.
   void take(const ReferenceConfiguration& reference, const Model& model, const LooseParticles& loose,
             std::span<const Mat2> correction);
 
-  /// Diffuses what the last step has sheared. Returns what the elastic energy has lost [J/m], counted in one
-  /// of some steps, for all of them.
+  /// Diffuses what the last steps have sheared, in one of some steps. Returns what the elastic energy has
+  /// lost [J/m], counted in one of some steps, for all of them.
   double apply(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays);
 
   double* sheared() { return sheared_.data(); }  ///< as in FlowView
+  /// As it yielded, since that was forgotten.
+  bool has_sheared(std::size_t particle) const { return has_sheared_[particle] != 0; }
+  bool has_sheared() const { return std::ranges::find(has_sheared_, 1) != has_sheared_.end(); }
+  void forget_shear() { std::ranges::fill(has_sheared_, 0); }
   StressDiffusionView view();
   void visit(StateArchive& state);
 
@@ -37,6 +44,7 @@ class StressDiffusion {
   bool take_strain();
 
   std::vector<double> sheared_;
+  std::vector<std::uint8_t> has_sheared_;
   std::vector<std::int32_t> soil_;   ///< and ghost; -1 for those that take no part
   std::vector<double> diffusivity_;  ///< and ghost
   std::vector<std::uint8_t> near_;

@@ -9,6 +9,8 @@
 namespace porosph {
 namespace {
 
+constexpr double margin = 0.2;  // spacings by which strangers are nearer than the support
+
 Ghosts ghosts_behind_walls(const Model& model, double range, std::vector<Vec2>& points) {
   const std::size_t n = points.size();
   if (model.visibility.everywhere()) return {model.walls, 0, model.walls.size(), range, points};
@@ -163,10 +165,12 @@ NeighbourList Surroundings::near_candidates(const SeenNeighbours& seen, const Pa
   });
 }
 
-bool Surroundings::strangers_are_near(const Model& model, const PairStencils& stencils) {
+/// The neighbours were all within the support of each other at the points, so one of two strangers has moved.
+bool Surroundings::strangers_are_near(const Model& model, const PairStencils& stencils,
+                                      std::span<const Vec2> points) {
   const Particles& p = model.particles;
   const auto n = static_cast<std::int32_t>(p.size());
-  const double near = support_ - 0.2 * model.spacing;
+  const double near = support_ - margin * model.spacing, moved = 0.5 * margin * model.spacing;
   if (!candidates_hold(model)) look_for_candidates(model);
   bool found = false;
 #pragma omp parallel reduction(|| : found)
@@ -174,13 +178,14 @@ bool Surroundings::strangers_are_near(const Model& model, const PairStencils& st
     std::vector<std::int32_t> known_to(n, -1);  // the last particle in turn that has it as a neighbour
 #pragma omp for schedule(static)
     for (std::int32_t a = 0; a < n; ++a) {
+      if (found || (p.position[a] - points[a]).squaredNorm() < moved * moved) continue;
       stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
         if (b < n) known_to[b] = a;
       });
       for (const std::int32_t b : candidates_.of(a))
-        found = found || (b > a && known_to[b] != a && of_one_body(a, b, p) &&
-                          (p.position[b] - p.position[a]).squaredNorm() < near * near &&
-                          model.visibility.sees(a, b, p));
+        found = found ||
+                (b != a && known_to[b] != a && (p.position[b] - p.position[a]).squaredNorm() < near * near &&
+                 of_one_body(a, b, p) && model.visibility.sees(a, b, p));
     }
   }
   return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,8 @@ class Surroundings {
   SeenNeighbours find(const Model& model);
 
   /// True when two particles have come closer than the support, by a margin, that `stencils` do not have as
-  /// neighbours.
-  bool strangers_are_near(const Model& model, const PairStencils& stencils);
+  /// neighbours; `points`: where they were when those were made.
+  bool strangers_are_near(const Model& model, const PairStencils& stencils, std::span<const Vec2> points);
 
   bool bodies_are_apart() const { return !body_.empty(); }  ///< there is more than one
 

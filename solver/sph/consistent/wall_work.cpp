@@ -22,7 +22,7 @@ void WallWork::take(const ReferenceConfiguration& r) {
 void WallWork::sample(const ReferenceConfiguration& r, const Particles& p,
                       std::span<const PlaneTensor> piola) {
   velocity_.clear();
-  if (steps_++ % steps_between_samples != 0) return;
+  if (steps_ % steps_between_samples != 0) return;
   velocity_ = p.velocity;
   const auto n = static_cast<std::int32_t>(r.particles());
   force_.resize(at_walls_.size()), flux_.resize(at_walls_.size());
@@ -42,6 +42,7 @@ void WallWork::sample(const ReferenceConfiguration& r, const Particles& p,
 }
 
 void WallWork::count(const ReferenceConfiguration& r, const Particles& p, double dt) {
+  ++steps_;
   if (velocity_.empty() || force_.size() != at_walls_.size()) return;
   const auto n = static_cast<std::int32_t>(r.particles());
   const auto velocity = [&](std::int32_t a) { return Vec2(0.5 * (velocity_[a] + p.velocity[a])); };

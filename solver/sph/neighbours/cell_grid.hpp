@@ -35,8 +35,8 @@ class CellGrid {
     sort_points(total);
   }
 
-  /// Calls visit(b, place) for every point b in the cells around `centre`: all within the cell size, and some
-  /// beyond it.
+  /// Calls visit(numbers, places) for the points of each row of cells around `centre`: all within the cell
+  /// size, and some beyond it.
   template <class Visit>
   void around(const Vec& centre, Visit&& visit) const {
     std::array<std::int64_t, dim> low, high;
@@ -84,8 +84,8 @@ class CellGrid {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         if (low[0] > high[0]) continue;
         const std::int64_t row = (z * count_[1] + y) * count_[0];
-        for (std::int32_t i = begin_[row + low[0]]; i < begin_[row + high[0] + 1]; ++i)
-          visit(sorted_[i], place_[i]);
+        const std::int32_t first = begin_[row + low[0]], last = begin_[row + high[0] + 1];
+        visit(std::span(sorted_).subspan(first, last - first), place_.data() + first);
       }
     }
   }

@@ -220,7 +220,7 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
 }
 
 void PaperDynamics::strain(double dt) {
-  stop_.remember_step(dt);
+  stop_.stepped(dt);
   points_.take_velocities(model_.particles);
   arrays_.soils = soils_.view();
   arrays_.effective_stress = &model_.particles.stress.data()->xx;

@@ -96,11 +96,22 @@ TEST_CASE("a wall mirrors nothing beyond an end that no other wall meets", "[bou
   CHECK_FALSE(alone[0].faces(soil[1], range));
 }
 
+TEST_CASE("a wall mirrors what lies just at its ends, whichever was written first", "[boundary]") {
+  const std::vector<Vec2> soil = {{0, 0.5}, {1, 0.5}, {2, 0.5}};
+  const bool turned = GENERATE(false, true);
+  const auto wall = walls_of({{BoundaryKind::roller, {turned ? 2. : 0., 0}, {turned ? 0. : 2., 0}}}, soil);
+  for (const Vec2& p : soil) CHECK(wall[0].faces(p, range));
+}
+
 TEST_CASE("two stretches of one wall mirror each particle once", "[boundary]") {
-  std::vector<Vec2> points = {{1, 0.5}, {2, 0.5}, {3, 0.5}};
+  std::vector<Vec2> points = {{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}, {4, 0.5}};
+  const bool first_turned = GENERATE(false, true), second_turned = GENERATE(false, true);
+  const auto stretch = [](Point from, Point to, bool turned) {
+    return BoundaryCase{.kind = BoundaryKind::fixed, .from = turned ? to : from, .to = turned ? from : to};
+  };
   const auto walls =
-      walls_of({{BoundaryKind::fixed, {0, 0}, {2, 0}}, {BoundaryKind::fixed, {2, 0}, {4, 0}}}, points);
+      walls_of({stretch({0, 0}, {2, 0}, first_turned), stretch({2, 0}, {4, 0}, second_turned)}, points);
   std::vector<Image> images;
   append_images(walls, 0, 2, range, points, images);
-  CHECK(images.size() == 3);
+  CHECK(images.size() == 5);
 }

@@ -32,13 +32,16 @@ struct Sheared {
   }
   std::size_t size() const { return model.particles.size(); }
 
-  /// Returns the elastic energy that is lost.
+  /// As many steps as diffuse once. Returns the elastic energy that is lost.
   double diffuse() {
     ConsistentArrays arrays{};
     arrays.reference = reference.view(model.particles);
     arrays.state.stress = &model.particles.stress.data()->xx;
     arrays.diffusion = diffusion.view();
-    return diffusion.apply(model, consistent_kernels(vector_units()), arrays);
+    double lost = 0;
+    for (int step = 0; step < StressDiffusion::steps_between; ++step)
+      lost += diffusion.apply(model, consistent_kernels(vector_units()), arrays);
+    return lost;
   }
   /// Gives each particle the stress of_place(x, y).
   template <class Of>

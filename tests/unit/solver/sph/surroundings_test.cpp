@@ -51,13 +51,13 @@ TEST_CASE("strangers are found once they come near, and neighbours are no strang
   volumes.assign(seen.points.size(), model.spacing * model.spacing);
   const CubicSpline<2> kernel(model.smoothing_length);
   const PairStencils stencils = make_pair_stencils(seen.points, seen.list, volumes, kernel);
-  CHECK_FALSE(surroundings.strangers_are_near(model, stencils));
+  CHECK_FALSE(surroundings.strangers_are_near(model, stencils, seen.points));
 
   // The last particle of all is taken to the other side of the first one, outside of the soil.
   std::vector<Vec2>& position = model.particles.position;
   const auto place = [&](double distance) { return Vec2(position[0] - distance * Vec2(1, 1).normalized()); };
   position.back() = place(kernel.support());
-  CHECK_FALSE(surroundings.strangers_are_near(model, stencils));
+  CHECK_FALSE(surroundings.strangers_are_near(model, stencils, seen.points));
   position.back() = place(0.7 * kernel.support());
-  CHECK(surroundings.strangers_are_near(model, stencils));
+  CHECK(surroundings.strangers_are_near(model, stencils, seen.points));
 }

@@ -65,7 +65,9 @@ TEST_CASE("a grid of cells in space leaves no neighbour out and visits none twic
   const CellGrid<3> grid(points, radius);
   for (const auto& centre : points) {
     std::vector<int> visits(points.size(), 0);
-    grid.around(centre, [&](std::int32_t b, const Vec3&) { ++visits[b]; });
+    grid.around(centre, [&](std::span<const std::int32_t> numbers, const Vec3*) {
+      for (const std::int32_t b : numbers) ++visits[b];
+    });
     for (std::size_t b = 0; b < points.size(); ++b) {
       REQUIRE(visits[b] <= 1);
       if ((points[b] - centre).norm() < radius) REQUIRE(visits[b] == 1);
