@@ -65,8 +65,9 @@ void declare(Fields& f, FormulationCase& c) {
       key_of_consistent("zero_energy_stiffness",
                         "Elastic part of that control: a spring of this times the control's strength "
                         "times the constrained modulus of the softest soil in reach; 0: viscous only.")
-          .otherwise("0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, or loads or "
-                     "footings press on elastic soil; 0.6 where walls turn corners, slits part the soil, "
+          .otherwise("0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, footings "
+                     "press elastic soil, or loads an elastic `lattice`; 0.6 where walls turn corners, slits "
+                     "part the soil, "
                      "bodies are apart or "
                      "gradients had to be closed; 0.1 in place of these if soil may yield; else 0"),
       c.zero_energy_stiffness, between(0, 10));

@@ -139,8 +139,9 @@ Model build_model(const Case& case_as_drawn) {
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
   // Loads that stages switch off would leave what the spring held, of which the next stage does not know.
-  const bool loads_stay = !scene.loads.empty() && !scene.plan;
-  model.is_pressed = !scene.water.couples() && (loads_stay || !scene.footings.empty());
+  const bool steps_are_loaded =
+      !scene.loads.empty() && !scene.plan && scene.particles.arrangement == Arrangement::lattice;
+  model.is_pressed = !scene.water.couples() && (steps_are_loaded || !scene.footings.empty());
   model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);
   model.usual_cause = usual_cause_of_breakdown(scene);
   return model;

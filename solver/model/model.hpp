@@ -22,7 +22,8 @@ struct Model {
   StandingWater water;                    ///< outside the soil
   std::shared_ptr<PoreWater> pore_water;  ///< in it; copies of the model share it
   std::vector<LoadedSurface> loads;
-  bool is_pressed = false;  ///< by loads or footings, at whose ends motion begins to alternate
+  bool is_pressed =
+      false;  ///< by footings, or by loads on a stepped lattice, where motion begins to alternate
   std::vector<Wall> walls;
   Visibility visibility;         ///< who sees whom past outlines
   double spacing = 0;            ///< dx [m]

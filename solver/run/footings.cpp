@@ -17,7 +17,8 @@ Footing::Footing(const FootingCase& footing, const Case& scene, const Model& mod
       into_(-outward_normal(scene, footing.from, footing.to)),
       along_((footing.to - footing.from).normalized()) {
   constexpr double apart = 0.5, some = 0.05;  // of the spacing: columns; their least area
-  const StretchOfParticles on = particles_on(footing.from, footing.to, -into_, scene, model, surface_vectors);
+  const StretchOfParticles on =
+      particles_on(footing.from, footing.to, -into_, scene, model, surface_vectors, Ends::sharp);
   if (on.particles.empty())
     throw std::runtime_error(
         fmt::format("footing '{}': no particle is near its stretch of the outline", footing.name));

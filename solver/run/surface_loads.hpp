@@ -33,8 +33,13 @@ struct StretchOfParticles {
   std::vector<Vec2> normals;  ///< of each, as in LoadedParticles
   std::vector<double> areas;  ///< of each [m]
 };
+/// How what acts on a stretch ends within a face.
+enum class Ends {
+  sharp,   ///< of a particle's width only the part on the stretch belongs to it
+  spread,  ///< over the particles next to the end, so that their motion does not alternate
+};
 StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,
-                                const Model& model, std::span<const Vec2> surface_vectors);
+                                const Model& model, std::span<const Vec2> surface_vectors, Ends ends);
 
 /// Throws std::runtime_error where no particle is near a load's stretch.
 std::vector<LoadedParticles> surface_loads(const Case& scene, const Model& model);

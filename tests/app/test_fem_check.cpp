@@ -132,3 +132,27 @@ TEST_CASE("what is not compared says why") {
   CHECK_THAT(refused.err, Contains("key 'check.finite_elements' = true: they do not apply"));
   CHECK_FALSE(std::filesystem::exists(place.folder() / "other"));
 }
+
+// Finite elements have small strain: with ten times the stiffness of the shipped case the particles have it
+// too.
+TEST_CASE("displacements of a layered embankment are those of finite elements") {
+  const std::string arrangement =
+      GENERATE("fitted", "stretched --set particles.smoothing_ratio=1",
+               "surface --set particles.smoothing_ratio=1", "disordered --set particles.disorder=0.1");
+  CAPTURE(arrangement);
+  const Workplace place;
+  const Outcome outcome = place.porosph(
+      "run " POROSPH_SOURCE_DIR
+      "/cases/embankment_layered.toml --set soil.gravel.youngs_modulus=600e6 --set "
+      "soil.clay.youngs_modulus=80e6 --set soil.fill.youngs_modulus=80e6 --set loading.damping=adaptive "
+      "--set stop.unbalanced_force_ratio=1e-5 --set time.end=100 --set check.finite_elements=true --out run "
+      "--set particles.arrangement=" +
+      arrangement);
+  REQUIRE(outcome.status == 0);
+  const nlohmann::json check = check_of(place);
+  CHECK(check["soils"].size() == 3);
+  for (const auto& soil : check["soils"]) {
+    CHECK(soil["fields"]["Displacement_X"]["relative_l2"] < 0.008);
+    CHECK(soil["fields"]["Displacement_Y"]["relative_l2"] < 0.003);
+  }
+}

@@ -8,7 +8,7 @@ namespace porosph {
 namespace {
 
 /// s, by default where something sets off motion that alternates: soils that meet, cut cells, the ends of
-/// loads, and more of it disorder and walls at corners other than upright ones with the soil between them.
+/// footings, and more of it disorder and walls at corners other than upright ones with the soil between them.
 double strength(const FormulationCase& formulation, const Model& model, bool cut,
                 const ReferenceConfiguration& r, const OwnSides& sides) {
   constexpr double little = 0.1, usual = 0.2, more = 0.6;  // docs/theory.md says what they do

@@ -53,8 +53,11 @@ TEST_CASE("finite elements under a strip load have the stress of theory", "[load
 }
 
 TEST_CASE("particles under a strip load have the stress of finite elements", "[load]") {
+  const double width = GENERATE(1.9, 2.0, 2.125);  // that ends beside, between and on particles
+  CAPTURE(width);
   Case scene = half_space(12, 8);
-  const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 0.5));
+  scene.loads[0].to.x() = width;
+  const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 0.25));
   scene.particles.arrangement = Arrangement::surface, scene.particles.smoothing_ratio = 1;
   scene.formulation = default_formulation(Motion::consistent);
   scene.loading.adaptive_damping = true;
@@ -65,23 +68,21 @@ TEST_CASE("particles under a strip load have the stress of finite elements", "[l
   const Particles& p = s.model().particles;
   double errors = 0, sum = 0, near = 0, far = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double from_edge = (p.start[i] - Vec2(2, 0)).norm() / scene.particles.spacing;
+    const double from_edge = (p.start[i] - Vec2(width, 0)).norm() / scene.particles.spacing;
     const double exact = fem.at(p.start[i]).effective_stress[1], off = std::abs(p.stress[i].yy - exact);
-    if (from_edge < 2.001) continue;
+    if (from_edge < 2) continue;
     errors += off * off, sum += exact * exact;
-    // The particle of the top row two spacings from the edge is 9 % of q off.
-    if (from_edge > 2.1) near = std::max(near, off);
+    near = std::max(near, off);
     if (from_edge > 8) far = std::max(far, off);
   }
-  // Motion alternates at the edge, where the load jumps. The spring against it is felt at the surface.
   CAPTURE(std::sqrt(errors / sum), near / q, far / q);
-  CHECK(std::sqrt(errors / sum) < 0.014);
-  CHECK(near < 0.03 * q);
+  CHECK(std::sqrt(errors / sum) < 0.0055);
+  CHECK(near < 0.018 * q);
   CHECK(far < 0.005 * q);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.start[i].x() < scene.particles.spacing) {
       const FemPoint exact = fem.at(p.start[i]);
-      CHECK(p.stress[i].yy == Approx(exact.effective_stress[1]).margin(0.009 * q));
-      CHECK(p.displacement(i).y() == Approx(exact.displacement.y()).margin(0.00002));
+      CHECK(p.stress[i].yy == Approx(exact.effective_stress[1]).margin(0.0012 * q));
+      CHECK(p.displacement(i).y() == Approx(exact.displacement.y()).margin(0.000012));
     }
 }

@@ -127,6 +127,60 @@ TEST_CASE("a load's force is that of its traction over its stretch and over time
   CHECK(total_force(loads, 9).x() == Approx(2e3 * 3).epsilon(1e-9));
 }
 
+TEST_CASE("a load keeps its force and its place, wherever it ends on a face", "[load]") {
+  const Arrangement arrangement =
+      GENERATE(Arrangement::lattice, Arrangement::surface, Arrangement::stretched);
+  const auto [from, to] =
+      GENERATE(std::pair(1.37, 4.21), std::pair(2.1, 2.3), std::pair(0.2, 3.0), std::pair(3.0, 6.0));
+  const bool between_walls = GENERATE(true, false);
+  CAPTURE(arrangement, from, to, between_walls);
+  Case scene = pressed_box(arrangement, 0);
+  if (!between_walls) scene.boundaries.resize(1);
+  scene.loads[0] = pressing({from, 4}, {to, 4}, 1);
+  const Model model = build_model(scene);
+  const auto loads = surface_loads(scene, model);
+  double place = 0, alternating = 0;
+  for (std::size_t k = 0; k < loads[0].particles.size(); ++k) {
+    const double x = model.particles.position[loads[0].particles[k]].x();
+    place += loads[0].areas[k] * x;
+    alternating += std::cos(2 * std::numbers::pi * x) * loads[0].areas[k];  // from column to column
+  }
+  CHECK(total_force(loads, 0).y() == Approx(from - to).epsilon(1e-9));
+  // Beside a corner, what is spread beyond the end has no counterpart.
+  const bool inside = from > 1 && to < 5;
+  CHECK(place == Approx((to * to - from * from) / 2).margin(inside ? 1e-9 : 0.13));
+  if (inside && between_walls) CHECK(std::abs(alternating) < 1e-9);
+}
+
+namespace {
+
+/// An embankment whose crest meets a steep slope and a gentle one.
+Case crest_between_slopes(Arrangement arrangement) {
+  Case scene = pressed_box(arrangement, 0);
+  scene.soils[0].polygon = {{0, 0}, {12, 0}, {8, 6}, {6, 6}, {2, 4}, {1, 2}};
+  scene.boundaries.clear();
+  add_wall(scene, BoundaryKind::fixed, {0, 0}, {12, 0});
+  scene.loads[0] = pressing({8, 6}, {6, 6}, 1);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("pressure and shear on a crest beside a blunt bend have their force", "[load]") {
+  const Arrangement arrangement =
+      GENERATE(Arrangement::lattice, Arrangement::fitted, Arrangement::surface, Arrangement::stretched);
+  CAPTURE(arrangement);
+  Case scene = crest_between_slopes(arrangement);
+  const Model model = build_model(scene);
+  const Vec2 pressed = total_force(surface_loads(scene, model), 0);
+  CHECK(pressed.y() == Approx(-2).epsilon(0.01));
+  CHECK(std::abs(pressed.x()) < 0.1);
+  scene.loads[0] = {.name = "shear", .from = {8, 6}, .to = {6, 6}, .traction = {1, 0}, .traction_to = {1, 0}};
+  const Vec2 sheared = total_force(surface_loads(scene, model), 0);
+  CHECK(sheared.x() == Approx(2).epsilon(1e-9));
+  CHECK(std::abs(sheared.y()) < 1e-9);
+}
+
 TEST_CASE("a column pressed at rest has the stress and the settlement of its theory", "[load]") {
   const double q = 30e3;
   Case scene = pressed_box(Arrangement::surface, q);
