@@ -73,13 +73,14 @@ std::string tell(const Summary::TransientSeepage& c) {
 }
 
 std::string tell(const Summary::WaterMotion& c) {
-  return fmt::format(
-      "{}{} steps with inertia, {:.3g} iterations each for the pressure; {:.4g} m2 of water have left, "
-      "{:.0e} "
-      "m2 are missing\n",
-      c.began > 0 ? fmt::format("equilibrium was lost at {:.6g} s; ", c.began) : "", c.steps,
-      static_cast<double>(c.krylov_iterations) / static_cast<double>(std::max<std::int64_t>(1, c.steps)),
-      c.drained, std::abs(c.imbalance));
+  std::string text = c.began > 0 ? fmt::format("equilibrium was lost at {:.6g} s; ", c.began) : "";
+  text += fmt::format("{} steps with inertia", c.steps);
+  if (c.krylov_iterations > 0)  // else no excess pressure arises
+    text += fmt::format(
+        ", {:.3g} iterations each for the pressure; {:.4g} m2 of water have left, {:.0e} m2 are missing",
+        static_cast<double>(c.krylov_iterations) / static_cast<double>(c.steps), c.drained,
+        std::abs(c.imbalance));
+  return text + "\n";
 }
 
 Summary::WaterMotion motion_summary(const Simulation& s) {

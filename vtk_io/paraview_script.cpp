@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "solver/analysis/frame_values.hpp"
 #include "solver/boundary/support.hpp"
 #include "solver/fields/field_table.hpp"
 #include "vtk_io/resources.hpp"
@@ -58,10 +59,6 @@ nlohmann::json rings_of(const std::vector<SoilCase>& soils) {
   return rings;
 }
 
-bool has(const Frame& frame, const std::string& name) {
-  return std::ranges::count(frame.fields, name, &FrameField::name) > 0;
-}
-
 }  // namespace
 
 ScriptScene script_scene(const Case& scene) {
@@ -85,7 +82,8 @@ std::string paraview_script(const std::filesystem::path& folder, const std::stri
       {"folder", folder.string()},
       {"title", scene.title},
       {"spacing", scene.spacing},
-      {"smoothing_length", has(frame, "Mass") && has(frame, "Density") ? scene.smoothing_length : 0},
+      {"smoothing_length",
+       has_field(frame, "Mass") && has_field(frame, "Density") ? scene.smoothing_length : 0},
       {"field", field},
       {"component", component},
       {"unit", in_kilo ? "kPa" : unit},

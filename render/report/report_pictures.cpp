@@ -124,14 +124,20 @@ std::optional<ReportPicture> draw_sections(const std::vector<LoadedRun>& runs,
                           shown_name(field), runs.size() == 1 ? "the run" : "each run"));
 }
 
+/// What tells most of the start, of the fields that were written.
+std::string field_of_case(const Frame& start, const Case& scene) {
+  const bool is_wet = scene.water.present() || scene.water.flows();
+  const bool several = scene.soils.size() > 1;
+  for (const auto& [name, is_wanted] :
+       {std::pair("SoilId", several), {"PorePressure", is_wet}, {"Density", true}, {"SoilId", true}})
+    if (is_wanted && can_show(start, name)) return name;
+  return start.fields.front().name;
+}
+
 ReportPicture draw_case(const LoadedRun& loaded, const fs::path& folder) {
   const FinishedRun& run = loaded.run;
   const Frame start = frame_of(run, 0);
-  const bool several = run.scene->soils.size() > 1;
-  const FieldSelection field{several                      ? "SoilId"
-                             : run.scene->water.present() ? "PorePressure"
-                                                          : "Density",
-                             ""};
+  const FieldSelection field{field_of_case(start, *run.scene), ""};
   const auto values = values_of(start, field);
   const ShownUnit unit = shown_unit(field.name, largest_of(values));
   ContourPanel panel = panel_of(run, start, scaled(values, unit.factor));

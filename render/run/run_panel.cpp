@@ -19,10 +19,6 @@
 namespace porosph {
 namespace {
 
-bool has(const Frame& frame, const std::string& name) {
-  return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const auto& f) { return f.name == name; });
-}
-
 std::vector<Point> positions_of(const Frame& frame) {
   std::vector<Point> out(frame.points.size() / 3);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {frame.points[3 * i], frame.points[3 * i + 1]};
@@ -85,7 +81,7 @@ Scenery scenery_at(const Case& scene, double time) { return scenery_of(scene_at(
 
 std::vector<double> particle_sizes(const FinishedRun& run, const Frame& frame) {
   if (run.scene) return {overlap * run.scene->particles.spacing};
-  if (!has(frame, "Mass") || !has(frame, "Density")) return {usual_distance(positions_of(frame))};
+  if (!has_field(frame, "Mass") || !has_field(frame, "Density")) return {usual_distance(positions_of(frame))};
   std::vector<double> sizes = values_of(frame, {"Mass", ""});
   const std::vector<double> densities = values_of(frame, {"Density", ""});
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::sqrt(sizes[i] / densities[i]);
@@ -169,14 +165,14 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
   panel.particles.positions = positions_of(frame);
   panel.particles.values = std::move(values);
   panel.particles.sizes = particle_sizes(run, frame);
-  const bool knows_starts = has(frame, "Displacement");
+  const bool knows_starts = has_field(frame, "Displacement");
   const std::optional<Case> then = run.scene ? std::optional(scene_during(run, frame.time)) : std::nullopt;
   const Case* scene = then && knows_starts ? &*then : nullptr;
   const std::vector<Point> positions = panel.particles.positions,
                            starts = knows_starts ? starts_of(frame) : positions;
   if (scene != nullptr) panel.particles.cells = drawn_cells(*scene, starts);
   if (then) panel.scenery = scenery_of(scene_at(*then, frame.time));
-  if (run.scene && seeps(*run.scene) && has(frame, "PressureHead"))
+  if (run.scene && seeps(*run.scene) && has_field(frame, "PressureHead"))
     panel.scenery.water_table = water_table(panel.particles.positions, values_of(frame, {"PressureHead", ""}),
                                             run.scene->particles.spacing);
   if (deformation != 1 && !knows_starts)
@@ -232,7 +228,17 @@ void make_logarithmic(ColourScale& scale) {
   scale.logarithmic = true;
 }
 
-std::string time_text(double time) { return fmt::format("t = {:.3g} s", time); }
+std::string time_text(double time) {
+  if (time < 1000) return fmt::format("t = {:.{}g} s", time, time < 100 ? 3 : 4);
+  std::string text = "t =";
+  const auto add = [&](double seconds, const char* unit) {
+    const double whole = std::floor(time / seconds + 1e-9);
+    if (whole > 0) text += fmt::format(" {:.0f} {}", whole, unit);
+    time = std::max(0.0, time - whole * seconds);
+  };
+  add(86400, "d"), add(3600, "h"), add(60, "min");
+  return time < 5e-4 ? text : text + fmt::format(" {:.4g} s", time);
+}
 
 std::string panel_subtitle(const FinishedRun& run, double time, const std::string& title) {
   std::string text = time_text(time);

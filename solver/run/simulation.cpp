@@ -526,6 +526,7 @@ bool Simulation::exchange_with_last_good() {
 }
 
 std::optional<double> Simulation::drained() const {
+  if (seepage_) return std::nullopt;  // it has a balance of its own
   if (const DynamicWater* water = water_in_motion()) return water->drained();
   if (consolidation_) return consolidation_->drained();
   return std::nullopt;

@@ -63,31 +63,6 @@ constexpr double load = 10e3;
 
 }  // namespace
 
-TEST_CASE("a step load runs down a column as an undrained wave of Biot", "[water][dynamic]") {
-  Case scene = column(10, 100, WaterMode::undrained);
-  load_top(scene, load);
-  const double water = scene.water.coupling.bulk_modulus / 0.4, all = modulus_of(scene) + water;
-  const double density = 20e3 / 9.81, speed = std::sqrt(all / density), carried = water / all;
-  scene.time.end = 0.004, scene.time.courant = 0.045;  // 0.7 of the undrained wave's
-  Simulation s(scene);
-  run_to_end(s);
-  const Particles& p = s.model().particles;
-  const auto velocity = s.velocities();
-  std::vector<std::pair<double, double>> profile;  // depth, p over the load
-  for (std::size_t a = 0; a < p.size(); ++a) {
-    if (p.start[a].x() > 0.1) continue;
-    const double depth = 10 - p.start[a].y();
-    profile.emplace_back(depth, -s.water_in_motion()->excess()[a] / load);
-    if (depth < 0.5 || depth > 2.5) continue;  // away from the load's edge and from the front
-    CHECK(profile.back().second == Approx(carried).epsilon(1e-3));
-    CHECK(-velocity[a].y() * density * speed / load == Approx(1).epsilon(1e-3));
-  }
-  std::ranges::sort(profile);
-  const auto front =
-      std::ranges::find_if(profile, [&](const auto& at) { return at.first > 1 && at.second < carried / 2; });
-  CHECK(front->first == Approx(speed * s.time()).margin(0.1));  // a spacing
-}
-
 TEST_CASE("neither permeability nor stiffness of the water changes the steps of soil in motion",
           "[water][dynamic]") {
   std::int64_t steps = 0;
@@ -163,6 +138,7 @@ TEST_CASE("soil in motion goes on from a kept state to the same bits", "[water][
   Simulation first(scene);
   const int steps_before = GENERATE(1, 7, 60);
   for (int k = 0; k < steps_before; ++k) first.advance();
+  if (GENERATE(false, true)) first.accelerations();  // as whoever writes a frame asks for
   const KeptState kept(first);
   run_to_end(first);
   REQUIRE(first.water_in_motion()->counts().renewals > 1);

@@ -175,7 +175,12 @@ TEST_CASE("pressure and shear on a crest beside a blunt bend have their force", 
   const Vec2 pressed = total_force(surface_loads(scene, model), 0);
   CHECK(pressed.y() == Approx(-2).epsilon(0.01));
   CHECK(std::abs(pressed.x()) < 0.1);
-  scene.loads[0] = {.name = "shear", .from = {8, 6}, .to = {6, 6}, .traction = {1, 0}, .traction_to = {1, 0}};
+  scene.loads[0] = {.name = "shear",
+                    .from = {8, 6},
+                    .to = {6, 6},
+                    .traction = {1, 0},
+                    .traction_to = {1, 0},
+                    .over_time = {}};
   const Vec2 sheared = total_force(surface_loads(scene, model), 0);
   CHECK(sheared.x() == Approx(2).epsilon(1e-9));
   CHECK(std::abs(sheared.y()) < 1e-9);
