@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "solver/model/model.hpp"
@@ -36,7 +35,7 @@ class Consolidation {
                 std::span<Footing> footings, double dt);
 
   /// One flow step from the time `now`, not beyond `until` [s]; returns the time that it reached. Throws
-  /// NotAtRest where the soil does not come to rest: it has failed.
+  /// std::runtime_error where the soil does not come to rest: it has failed.
   double advance(double now, double until);
 
   std::span<const double> head() const { return of_.head; }  ///< excess, of the particles [m]
@@ -47,18 +46,6 @@ class Consolidation {
   void visit(StateArchive& state);  ///< saves or restores all of it
   Counts counts() const;
 
-  /// What soil that goes on with its inertia begins with.
-  struct State {
-    std::span<const double> head, water, smoothed;  ///< h [m]; W and T h [m2]
-    std::vector<double> start_volume;               ///< [m2]
-    double drained;                                 ///< [m2]
-  };
-  State state() const;
-  /// Thrown where the soil does not come to rest.
-  struct NotAtRest : std::runtime_error {
-    NotAtRest(const std::string& message, double when) : std::runtime_error(message), time(when) {}
-    double time;  ///< [s]
-  };
   /// Forces left by the last step, as in the tolerance [-].
   double unbalanced() const { return progress_.unbalanced; }
 

@@ -56,16 +56,6 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
   if (scene.water.is_dynamic()) take_over();
 }
 
-void DynamicWater::begin(const Consolidation::State& from) {
-  const auto take = [](std::vector<double>& to, const auto& of) { to.assign(of.begin(), of.end()); };
-  take(of_.head, from.head), take(of_.water, from.water), take(of_.held, from.smoothed);
-  take(of_.start_volume, from.start_volume);
-  drained_ = from.drained;
-  for (std::size_t a = 0; a < of_.head.size(); ++a) of_.excess[a] = -unit_weight_ * of_.head[a];
-  if (dynamics_.counts.refreshes > 1) renew();
-  take_over();
-}
-
 void DynamicWater::begin_drained() {
   drained_soil_ = true;
   for (std::size_t a = 0; a < of_.head.size(); ++a) of_.start_volume[a] = model_.particles.volume(a);

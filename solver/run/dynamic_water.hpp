@@ -44,8 +44,6 @@ class DynamicWater {
     std::size_t particle;
   };
 
-  /// From soil that was at rest; it may have a renewed reference.
-  void begin(const Consolidation::State& state);
   /// From soil at rest in a flow over time, which particles take along: no excess pressure arises.
   void begin_drained();
   /// The soil carries these pressures from now on.

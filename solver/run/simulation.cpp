@@ -61,10 +61,6 @@ std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, doub
   return runaways;
 }
 
-constexpr double share_of_failed_step = 0.25;  // the next try
-/// Time in which the soil fails, in crossings of the body by its waves: no flow step is shorter.
-constexpr double crossings_at_failure = 20;
-
 /// In a stage a probe reads the soil that it is in, and is nowhere until that is there.
 Probe make_probe(const ProbeCase& probe, const Case& scene, const Model& model) {
   if (!scene.plan) return Probe(probe, model);
@@ -202,38 +198,14 @@ void Simulation::advance_flow() {
   const std::int64_t due = next_tick_due();
   const double until = static_cast<double>(due) * clock_.dt;
   try {
-    while (!try_flow(until, due))
-      if (longest_flow_step_ < crossings_at_failure * crossing_time()) return begin_motion();
+    const double reached = consolidation_->advance(time(), until);
+    clock_.step =
+        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
   } catch (const std::runtime_error& failure) {
     instability_ = Breakdown{.cause = Cause::not_at_rest, .time = time(), .message = failure.what()};
     return;
   }
   take_accelerations_at_rest();
-}
-
-/// A step of the flow; false where the soil does not come to rest in it, and is where it was.
-bool Simulation::try_flow(double until, std::int64_t due) {
-  const auto flow = [&] {
-    const double reached = consolidation_->advance(time(), std::min(until, time() + longest_flow_step_));
-    clock_.step =
-        reached < until ? std::clamp(std::llround(reached / clock_.dt), clock_.step + 1ll, due - 1ll) : due;
-  };
-  if (scene_.water.coupling.motion != WaterMotion::automatic) return flow(), true;
-  const KeptState before(*this);
-  try {
-    return flow(), true;
-  } catch (const Consolidation::NotAtRest& failure) {
-    longest_flow_step_ = share_of_failed_step * (failure.time - time());
-  }
-  before.restore(*this);
-  return false;
-}
-
-/// Of the body, as it is drawn, by the fastest wave [s].
-double Simulation::crossing_time() const {
-  Vec2 low = model_.particles.start.front(), high = low;
-  for (const Vec2& x : model_.particles.start) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  return (high - low).maxCoeff() / model_.wave_speed;
 }
 
 /// Equilibrium is lost within a moment from now: the soil goes on with its inertia.
@@ -242,12 +214,8 @@ void Simulation::begin_motion() {
   in_motion_ = true;
   end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
-  if (seepage_) {
-    seepage_->stop(model_.particles);
-    moving_water_->begin_drained();
-  } else {
-    moving_water_->begin(consolidation_->state());
-  }
+  seepage_->stop(model_.particles);
+  moving_water_->begin_drained();
   dynamics_->strain(0);  // it remembers velocities
   accelerations_valid_ = false;
 }
@@ -471,7 +439,6 @@ void Simulation::visit_motion(StateArchive& state) {
   state.value("ticks", clock_.ticks);
   state.value("moves", clock_.moves);
   state.value("failed_at", failed_at_);
-  state.value("longest_flow_step", longest_flow_step_);
   if (!in_motion_) return;
   moving_water_->visit(state);
   if (!state.restoring()) return;

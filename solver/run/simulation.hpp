@@ -123,8 +123,6 @@ class Simulation {
   void couple();
   void time_by_flow();
   void advance_flow();
-  bool try_flow(double until, std::int64_t due);
-  double crossing_time() const;
   void begin_motion();
   void choose_ticks();
   std::int64_t motion_tick(double intervals) const;
@@ -166,9 +164,9 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   std::unique_ptr<Consolidation> consolidation_;
   std::shared_ptr<TransientWater> seepage_;
-  std::unique_ptr<DynamicWater> moving_water_;            ///< null where the soil never moves with its own
-  bool in_motion_ = false;                                ///< it does now
-  double failed_at_ = never, longest_flow_step_ = never;  ///< [s]
+  std::unique_ptr<DynamicWater> moving_water_;  ///< null where the soil never moves with its own
+  bool in_motion_ = false;                      ///< it does now
+  double failed_at_ = never;                    ///< [s]
   Settling settling_;
   std::vector<Probe> probes_;
   Clock clock_;
