@@ -8,6 +8,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/run/kept_state.hpp"
 #include "solver/run/simulation.hpp"
+#include "tests/box_of_soil.hpp"
 
 using namespace porosph;
 
@@ -15,26 +16,17 @@ namespace {
 
 /// A column between rollers, at rest under its weight and water.
 Case column(double height, int rows, WaterMode mode) {
-  const double width = 4 * height / rows;
-  Case scene;
-  SoilCase soil;
-  soil.name = "sand";
-  soil.polygon = {{0, 0}, {width, 0}, {width, height}, {0, height}};
-  soil.youngs_modulus = 15e6;
-  soil.poissons_ratio = 0.33;
+  Case scene = box_of_soil(4, rows, height / rows);
+  hold_as_column(scene);
+  SoilCase& soil = scene.soils[0];
   soil.porosity = 0.4;
-  soil.unit_weight_saturated = soil.unit_weight_unsaturated = 20e3;
+  soil.unit_weight_unsaturated = soil.unit_weight_saturated;
   if (mode == WaterMode::coupled) soil.permeability = {1e-3, 1e-3};
-  scene.soils = {soil};
+  add_water(scene, height + 0.5);
   scene.water.mode = mode;
   scene.water.coupling.motion = WaterMotion::dynamic;
-  scene.water.stretches = {{-never, never, height + 0.5}};
-  scene.particles.spacing = height / rows;
   scene.particles.arrangement = Arrangement::lattice;
   scene.particles.smoothing_ratio = 1;
-  scene.boundaries = {{BoundaryKind::roller, {0, 0}, {0, height}},
-                      {BoundaryKind::roller, {width, 0}, {width, height}},
-                      {BoundaryKind::fixed, {0, 0}, {width, 0}}};
   scene.formulation = default_formulation(Motion::consistent);
   scene.loading.k0_stress = true;
   scene.time.courant = 0.9;
