@@ -230,6 +230,7 @@ void make_logarithmic(ColourScale& scale) {
 
 std::string time_text(double time) {
   if (time < 1000) return fmt::format("t = {:.{}g} s", time, time < 100 ? 3 : 4);
+  time = std::round(1000 * time) / 1000;
   std::string text = "t =";
   const auto add = [&](double seconds, const char* unit) {
     const double whole = std::floor(time / seconds + 1e-9);
@@ -237,7 +238,7 @@ std::string time_text(double time) {
     time = std::max(0.0, time - whole * seconds);
   };
   add(86400, "d"), add(3600, "h"), add(60, "min");
-  return time < 5e-4 ? text : text + fmt::format(" {:.4g} s", time);
+  return time < 5e-4 ? text : text + fmt::format(" {:g} s", std::round(1000 * time) / 1000);
 }
 
 std::string panel_subtitle(const FinishedRun& run, double time, const std::string& title) {

@@ -8,8 +8,8 @@
 namespace porosph {
 namespace {
 
-/// Sorts numbers that differ. For as many as a kernel reaches, counting how many are smaller than each one,
-/// in vector code, takes a third of the time of std::sort.
+/// Sorts numbers that differ, by how many are smaller than each one, which is vector code. With it a column
+/// that collapses takes 2 to 3 % less time in all than with std::sort.
 void sort_distinct(std::span<std::int32_t> numbers) {
   constexpr std::size_t few = 64;
   const std::size_t count = numbers.size();

@@ -245,6 +245,16 @@ TEST_CASE("a history says where its run ended") {
   CHECK(line.end == LineEnd::broken);
 }
 
+TEST_CASE("times are told with as many digits as tell them apart") {
+  CHECK(time_text(0.0919118) == "t = 0.0919 s");
+  CHECK(time_text(100.25) == "t = 100.2 s");
+  CHECK(time_text(216000) == "t = 2 d 12 h");
+  CHECK(time_text(302402.5) == "t = 3 d 12 h 2.5 s");
+  CHECK(time_text(302402.50000001) == time_text(302402.5));
+  CHECK(time_text(3599.9999) == "t = 1 h");
+  CHECK(time_text(3599.996) == "t = 59 min 59.996 s");
+}
+
 TEST_CASE("a subtitle does not repeat the title") {
   FinishedRun run = run_of("x", {0, 0.5}, RunStatus::unstable);
   run.scene.emplace();
