@@ -46,7 +46,7 @@ void keep_for_neighbours(const FluxViewIn<Space>& f, const TileRange& tile, cons
     if (f.listed[a])
       for (int k = 0; k < size; ++k) f.records[a].q[k] = f.flux[k][a];
     if (f.mirrored[a])
-      for (int k = 0; k < size; ++k) f.piola[size * a + k] = piola[k].value[a - tile.first];
+      for (int k = 0; k < size; ++k) f.piola[k][a] = piola[k].value[a - tile.first];
   }
 }
 
