@@ -122,8 +122,8 @@ Model build_model(const Case& case_as_drawn) {
   if (scene.loading.gravity_applied)
     model.gravity = scene.loading.gravity * Vec2(scene.loading.horizontal, -1);
   for (const SoilCase& s : scene.soils) {
-    model.soil_ids.push_back(s.id < 0 ? static_cast<std::int32_t>(model.soils.size()) : s.id);
-    model.soils.emplace_back(soil_law(s, model.spacing), s.law != LawKind::elastic);
+    const std::int32_t id = s.id < 0 ? static_cast<std::int32_t>(model.soils.size()) : s.id;
+    model.soils.emplace_back(soil_law(s, model.spacing), s.law != LawKind::elastic, id);
   }
 
   model.particles = make_particles(scene, model.water, sites_of(scene, model.origin));
