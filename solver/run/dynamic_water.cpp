@@ -14,6 +14,7 @@ namespace {
 
 constexpr double krylov_tolerance = 1e-2;  // of the right side; the next step makes good what is left
 constexpr int most_iterations = 20000;
+constexpr double outer_tolerance = 2e-2;
 constexpr double share_of_free_side = 0.5;  // of a cell: the particle lies at a free surface
 
 /// What mirrors soil that has left its outline: closed stretches.
@@ -45,43 +46,54 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
   for (const SoilCase& soil : scene.soils)
     inertia_.push_back(unit_weight_ * scene.loading.gravity / soil.unit_weight_saturated);
   of_.storage = storage_of_water(scene, p);
-  for (std::size_t a = 0; a < n; ++a) of_.start_volume.push_back(p.volume(a));
-  for (auto* v : {&of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open}) v->assign(n, 0);
+  for (auto* v : {&of_.gained, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open, &of_.outlet})
+    v->assign(n, 0);
   for (auto* v : {&work_.rate, &work_.inflow, &work_.right_side, &work_.pressure, &work_.spread})
     v->resize(n);
   work_.velocity.resize(n), work_.push.resize(n);
   stencils_.drainage = drainage(scene, p);
   stencils_.inertia = pressure_stabilisation(scene.soils, inertia_, p, model.spacing);
   take_stencils();
-  if (scene.water.is_dynamic()) take_over();
 }
 
 void DynamicWater::begin_drained() {
   drained_soil_ = true;
-  for (std::size_t a = 0; a < of_.head.size(); ++a) of_.start_volume[a] = model_.particles.volume(a);
   if (dynamics_.counts.refreshes > 1) renew();
-  take_over();
 }
 
-/// Soil that has yielded may get another density when the reference is rebuilt. That is not a change of
-/// volume.
 void DynamicWater::prepare() {
   const std::int64_t refreshes = dynamics_.counts.refreshes;
-  const std::vector<double> density = model_.particles.density;
   dynamics_.prepare();
   const bool renewed = dynamics_.counts.refreshes != refreshes;
-  if (renewed) {
-    const Particles& p = model_.particles;
-    for (std::size_t a = 0; a < p.size(); ++a) of_.start_volume[a] += p.volume(a) - p.mass[a] / density[a];
-    if (refreshes > 0) renew();
-  }
+  if (renewed && refreshes > 0) renew();
   if (renewed || !surface_is_known_) measure_surface();
+}
+
+void DynamicWater::add_force(std::span<Vec2> accelerations) {
+  dynamics_.excess_accelerations(of_.excess, work_.push);
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < accelerations.size(); ++a) accelerations[a] += work_.push[a];
+}
+
+std::span<const double> DynamicWater::take_strain(double dt) {
+  const Particles& p = model_.particles;
+  dynamics_.volume_rates(p.velocity, work_.rate, dt / 2);
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < of_.gained.size(); ++a) of_.gained[a] += dt * p.volume(a) * work_.rate[a];
+  let_through();
+  return work_.rate;
 }
 
 void DynamicWater::renew() {
   made_at_ = model_.particles.position;
   density_then_ = model_.particles.density;
   make_stencils(model_.particles);
+  stencils_.inertia.apply(of_.head, work_.spread);
+  const double of_step = work_.of_last_dt * work_.of_last_gain;
+  for (std::size_t a = 0; a < of_.held.size(); ++a) {
+    const double held = of_step * work_.spread[a];
+    of_.water[a] += held - of_.held[a], of_.held[a] = held;
+  }
   ++counts_.renewals;
 }
 
@@ -118,10 +130,13 @@ void DynamicWater::measure_surface() {
   dynamics_.excess_accelerations(work_.pressure, work_.push);
   dynamics_.volume_rates(work_.push, work_.rate);
   for (std::size_t a = 0; a < n; ++a) of_.open[a] = std::max(0.0, p.volume(a) * work_.rate[a]);
-  lies_free_.assign(n, 0);
   for (std::size_t a = 0; a < n && !made_at_.empty(); ++a) {
-    const double area = p.mass[a] * work_.push[a].norm() / unit_weight_;
-    lies_free_[a] = area > share_of_free_side * std::sqrt(p.volume(a) / p.fill[a]) ? 1 : 0;
+    const Vec2 area = p.mass[a] / unit_weight_ * work_.push[a];
+    const Point& k = scene_.soils[p.soil[a]].permeability;
+    const double length = area.norm(), half = std::sqrt(p.volume(a) / p.fill[a]) / 2;
+    of_.outlet[a] = stencils_.drainage && length > 0
+                        ? (k.x() * area.x() * area.x() + k.y() * area.y() * area.y()) / (length * half)
+                        : 0;
   }
   surface_is_known_ = true;
   find_fixed();
@@ -136,7 +151,7 @@ void DynamicWater::find_fixed() {
   for (std::size_t a = 0; a < n; ++a) {
     const bool drains = stencils_.drainage && stencils_.drainage->pinned[a] >= 0;
     const bool loose = flow != nullptr && flow->loose().soil_has_flowed() && flow->loose().is(a);
-    fixed_[a] = drained_soil_ || drains || loose || lies_free_[a] != 0 ? 1 : 0;
+    fixed_[a] = drained_soil_ || drains || loose ? 1 : 0;
     if (fixed_[a]) of_.head[a] = of_.excess[a] = of_.change[a] = 0;
   }
   work_.of_dt = 0;
@@ -145,13 +160,14 @@ void DynamicWater::find_fixed() {
 void DynamicWater::make_matrix(double dt, double gain) {
   if (work_.of_dt == dt && work_.of_gain == gain) return;
   work_.of_dt = dt, work_.of_gain = gain;
+  work_.of_last_dt = dt, work_.of_last_gain = gain;
   const SparseRows& compact = stencils_.inertia.compact();
   const bool drains = stencils_.drainage.has_value();
   SparseRows& m = work_.matrix = compact;
   for (std::size_t a = 0; a < m.size(); ++a) {
     const bool fixed = fixed_[a] != 0;
     m.diagonal[a] = of_.storage[a] + dt * gain * (compact.diagonal[a] + of_.open[a]) +
-                    (drains ? dt * stencils_.flow.diagonal[a] : 0);
+                    (drains ? dt * (stencils_.flow.diagonal[a] + of_.outlet[a]) : 0);
     for (auto k = m.begin[a]; k < m.begin[a + 1]; ++k)
       m.value[k] = fixed || fixed_[m.column[k]]
                        ? 0
@@ -159,22 +175,25 @@ void DynamicWater::make_matrix(double dt, double gain) {
   }
 }
 
-/// R(h) at the present head; returns what flows into particles whose head is fixed [m2/s].
+/// R(h) at the present head; returns what flows into particles whose head is fixed, less what flows out at
+/// the free surface [m2/s].
 double DynamicWater::find_inflow() {
   if (!stencils_.drainage) return 0;
   stencils_.flow.multiply(of_.head, work_.inflow);
-  double into_fixed = 0;
+  double lost = 0;
   for (std::size_t a = 0; a < of_.head.size(); ++a) {
-    work_.inflow[a] = stencils_.still_inflow[a] - work_.inflow[a];
+    const double out = of_.outlet[a] * of_.head[a];
+    work_.inflow[a] = stencils_.still_inflow[a] - work_.inflow[a] - out;
+    lost += out;
     if (fixed_[a] == 0) continue;
-    if (stencils_.drainage->pinned[a] < 0) into_fixed += work_.inflow[a];
+    if (stencils_.drainage->pinned[a] < 0) lost += work_.inflow[a];
     work_.inflow[a] = 0;
   }
-  return into_fixed;
+  return lost;
 }
 
 double DynamicWater::held_water(std::size_t a) const {
-  return model_.particles.volume(a) - of_.start_volume[a] + of_.storage[a] * of_.head[a] + of_.held[a];
+  return of_.gained[a] + of_.storage[a] * of_.head[a] + of_.held[a];
 }
 
 void DynamicWater::make_right_side(Kick kick, double dt, std::span<const Vec2> accelerations) {
@@ -182,7 +201,7 @@ void DynamicWater::make_right_side(Kick kick, double dt, std::span<const Vec2> a
   const std::size_t n = p.size();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) work_.velocity[a] = kick(p.velocity[a], accelerations[a]);
-  dynamics_.volume_rates(work_.velocity, work_.rate);
+  dynamics_.volume_rates(work_.velocity, work_.rate, dt / 2);
   find_inflow();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a)
@@ -190,13 +209,60 @@ void DynamicWater::make_right_side(Kick kick, double dt, std::span<const Vec2> a
         fixed_[a] ? 0 : of_.water[a] - held_water(a) + dt * (work_.inflow[a] - p.volume(a) * work_.rate[a]);
 }
 
-void DynamicWater::solve() {
-  const KrylovResult solved = conjugate_gradients(work_.matrix, work_.right_side, of_.change,
-                                                  krylov_tolerance, most_iterations, ToleranceOf::right_side);
-  counts_.krylov_iterations += solved.iterations;
-  if (!solved.converged)
-    throw std::runtime_error(
-        fmt::format("pore pressure in motion: the equations do not converge ({:.1e} left)", solved.residual));
+/// A x, and the accelerations that the pressure of x gives.
+void DynamicWater::answer(std::span<const double> x, double dt, double gain, std::vector<double>& out) {
+  const Particles& p = model_.particles;
+  const std::size_t n = x.size();
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) work_.pressure[a] = -unit_weight_ * x[a];
+  dynamics_.excess_accelerations(work_.pressure, work_.push);
+  dynamics_.volume_rates(work_.push, work_.rate);
+  stencils_.inertia.apply(x, work_.spread);
+  if (stencils_.drainage) stencils_.flow.multiply(x, work_.inflow);
+  for (std::size_t a = 0; a < n; ++a) {
+    const double out_of = stencils_.drainage ? work_.inflow[a] + of_.outlet[a] * x[a] : 0;
+    out[a] = fixed_[a] ? 0
+                       : of_.storage[a] * x[a] + dt * out_of +
+                             dt * gain * (work_.spread[a] + p.volume(a) * work_.rate[a]);
+  }
+}
+
+void DynamicWater::solve(double dt, double gain) {
+  const std::size_t n = of_.change.size();
+  const auto dot = [&](const std::vector<double>& x, const std::vector<double>& y) {
+    return deterministic_sum(n, [&](std::size_t a) { return x[a] * y[a]; });
+  };
+  std::vector<double>& r = work_.right_side;
+  std::vector<double> z = of_.change, direction(n), image(n), x(n);
+  work_.total_push.assign(n, Vec2::Zero());
+  const double enough = outer_tolerance * outer_tolerance * dot(r, r);
+  if (dot(r, r) == 0) { of_.change.assign(n, 0); return; }
+  double before = 1;
+  for (int k = 0;; ++k) {
+    const KrylovResult solved =
+        conjugate_gradients(work_.matrix, r, z, k == 0 ? krylov_tolerance : 0.1, most_iterations, ToleranceOf::right_side);
+    counts_.krylov_iterations += solved.iterations;
+    if (!solved.converged)
+      throw std::runtime_error(
+          fmt::format("pore pressure in motion: the equations do not converge ({:.1e} left)", solved.residual));
+    const double beta = k == 0 ? 0 : -dot(z, image) / before;
+    for (std::size_t a = 0; a < n; ++a) direction[a] = z[a] + beta * direction[a];
+    answer(direction, dt, gain, image);
+    before = dot(direction, image);
+    const double alpha = dot(direction, r) / before;
+    for (std::size_t a = 0; a < n; ++a) {
+      x[a] += alpha * direction[a], r[a] -= alpha * image[a];
+      work_.total_push[a] += alpha * work_.push[a];
+      z[a] = 0;
+    }
+    ++counts_.solves;
+    static const bool verbose = getenv("PW_VERBOSE") != nullptr;
+    if (verbose) fmt::print("{} {} it {} alpha {:.4f} left {:.2e} of {:.2e}\n", counts_.steps, k, solved.iterations, alpha, std::sqrt(dot(r, r)), std::sqrt(enough) / outer_tolerance);
+    double worst = 0;
+    for (std::size_t a = 0; a < n; ++a) worst = std::max(worst, std::abs(r[a]) / model_.particles.volume(a));
+    if ((dot(r, r) <= enough && worst <= 1e-5) || k == 100) break;
+  }
+  of_.change = x;
 }
 
 /// Takes dh in: pressures, what stabilisation holds, and what flows at the end of the step.
@@ -234,16 +300,22 @@ void DynamicWater::check_volumes() const {
 }
 
 void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations) {
-  let_through();
+  if (getenv("PW_VERBOSE")) {
+    std::size_t worst = 0, wb = 0; double most = 0; int count = 0;
+    for (std::size_t a = 0; a < of_.head.size(); ++a) {
+      const double m = fixed_[a] ? 0 : std::abs(of_.water[a] - held_water(a)) / model_.particles.volume(a);
+      if (m > 1e-4) ++count;
+      if (m > most) most = m, worst = a;
+    }
+    const Particles& p = model_.particles;
+    fmt::print("step {} misfit {:.2e} at ({:.3f} {:.3f}) start ({:.2f} {:.2f}) v ({:.3f} {:.3f}) h {:.2f} vol {:.4f} n>1e-4 {} refr {} nonsense {}\n", counts_.steps, most, p.position[worst].x(), p.position[worst].y(), p.start[worst].x(), p.start[worst].y(), p.velocity[worst].x(), p.velocity[worst].y(), of_.head[worst], p.volume(worst), count, dynamics_.counts.refreshes, wb);
+  }
   check_volumes();
   make_matrix(dt, kick.gain);
   make_right_side(kick, dt, accelerations);
-  solve();
+  solve(dt, kick.gain);
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < of_.change.size(); ++a) work_.pressure[a] = -unit_weight_ * of_.change[a];
-  dynamics_.excess_accelerations(work_.pressure, work_.push);
-#pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < accelerations.size(); ++a) accelerations[a] += work_.push[a];
+  for (std::size_t a = 0; a < accelerations.size(); ++a) accelerations[a] += work_.total_push[a];
   keep(dt, kick.gain);
   ++counts_.steps;
 }
@@ -275,9 +347,11 @@ double DynamicWater::shown_energy() const {
 
 void DynamicWater::visit(StateArchive& state) {
   const std::size_t n = of_.head.size();
-  for (auto* v : {&of_.start_volume, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open})
+  for (auto* v : {&of_.gained, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &of_.open, &of_.outlet})
     state.array("dynamic_water", *v);
   state.value("dynamic_drained", drained_);
+  state.value("dynamic_last_step", work_.of_last_dt);
+  state.value("dynamic_last_gain", work_.of_last_gain);
   state.value("dynamic_surface_is_known", surface_is_known_);
   state.value("dynamic_steps", counts_.steps);
   state.value("dynamic_iterations", counts_.krylov_iterations);

@@ -34,7 +34,7 @@ namespace porosph {
 class DynamicWater {
  public:
   struct Counts {
-    std::int64_t steps = 0, krylov_iterations = 0, renewals = 0;
+    std::int64_t steps = 0, krylov_iterations = 0, renewals = 0, solves = 0;
   };
 
   DynamicWater(const Case& scene, Model& model, Dynamics& dynamics);
@@ -46,14 +46,16 @@ class DynamicWater {
 
   /// From soil at rest in a flow over time, which particles take along: no excess pressure arises.
   void begin_drained();
-  /// The soil carries these pressures from now on.
-  void take_over() { dynamics_.carry_excess(of_.excess); }
-
   /// In place of the dynamics' own: follows a renewed reference.
   void prepare();
+  /// Adds what the present pressures do to the accelerations.
+  void add_force(std::span<Vec2> accelerations);
   /// Adds to the accelerations, with which `kick` and a step dt [s] move the particles, what the change of
   /// pressure in that step does. Throws Lost.
   void add_change(Kick kick, double dt, std::span<Vec2> accelerations);
+
+  /// Takes in how the soil moved in a step dt [s]; returns how fast that changes its volume [1/s].
+  std::span<const double> take_strain(double dt);
 
   std::span<const double> head() const { return of_.head; }      ///< excess, of the particles [m]
   std::span<const double> excess() const { return of_.excess; }  ///< p_e [Pa]
@@ -72,12 +74,13 @@ class DynamicWater {
   /// Of each particle.
   struct Amounts {
     std::vector<double> storage;       ///< S [m]
-    std::vector<double> start_volume;  ///< [m2]
+    std::vector<double> gained;        ///< dV [m2]
     std::vector<double> head, excess;  ///< h [m]; p_e [Pa]
     std::vector<double> water;         ///< W [m2]
     std::vector<double> held;          ///< Z [m2]
     std::vector<double> change;        ///< the last dh [m]
     std::vector<double> open;          ///< what the free surface adds to the compact Laplacian [m3/s2]
+    std::vector<double> outlet;        ///< what flows out there per head, once the soil has moved [m/s]
   };
   struct Stencils {
     std::optional<Drainage> drainage;  ///< nothing: undrained
@@ -87,8 +90,9 @@ class DynamicWater {
   };
   struct Scratch {
     std::vector<double> rate, inflow, right_side, pressure, spread;
-    std::vector<Vec2> velocity, push;
+    std::vector<Vec2> velocity, push, total_push;
     SparseRows matrix;
+    double of_last_dt = 0, of_last_gain = 0;
     double of_dt = 0, of_gain = 0;  ///< the step that the matrix is for [s]
   };
   void find_fixed();
@@ -101,7 +105,8 @@ class DynamicWater {
   void make_matrix(double dt, double gain);
   double find_inflow();
   void make_right_side(Kick kick, double dt, std::span<const Vec2> accelerations);
-  void solve();
+  void answer(std::span<const double> x, double dt, double gain, std::vector<double>& out);
+  void solve(double dt, double gain);
   void keep(double dt, double gain);
   double held_water(std::size_t a) const;
 
@@ -111,7 +116,6 @@ class DynamicWater {
   double unit_weight_;
   std::vector<double> inertia_;          ///< gamma_w / rho of each soil [m/s2]
   bool drained_soil_ = false;            ///< no excess pressure arises
-  std::vector<std::uint8_t> lies_free_;  ///< of the particles: at a free surface, once the soil has moved
   std::vector<std::uint8_t> fixed_;      ///< of the particles: they keep their head, 0
   Amounts of_;
   Stencils stencils_;

@@ -274,6 +274,7 @@ std::span<const Vec2> Simulation::accelerations() {
 void Simulation::sum_forces() {
   in_motion_ ? moving_water_->prepare() : dynamics_->prepare();
   dynamics_->accelerations(accelerations_);
+  if (in_motion_) moving_water_->add_force(accelerations_);
   add_loads(model_.loads, model_.particles, time(), accelerations_);
   add_surface_loads(surface_loads_, model_.particles, time(), accelerations_);
   if (seepage_) seepage_->add_weight(model_.particles, model_.gravity, accelerations_);
@@ -324,7 +325,8 @@ void Simulation::advance_in_motion() {
   clock_.step += clock_.ticks;
   ++clock_.moves;
   if (instability_) return;
-  dynamics_->strain(step_length());
+  dynamics_->strain(step_length(),
+                    in_motion_ ? moving_water_->take_strain(step_length()) : std::span<const double>());
   model_.pore_water->flow(model_.water, model_.particles, step_length());
   if (in_motion_) show_excess();
   if (measure) relaxation_.measure(model_.particles, before, accelerations(), step_length());

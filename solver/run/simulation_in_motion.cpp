@@ -68,7 +68,6 @@ void Simulation::visit_motion(StateArchive& state) {
   if (!in_motion_) return;
   moving_water_->visit(state);
   if (!state.restoring()) return;
-  moving_water_->take_over();
   if (follows_flow()) end_after_motion();
 }
 

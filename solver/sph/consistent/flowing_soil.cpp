@@ -159,14 +159,13 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   blind_.assign(n, 0);
   correction_.resize(n);
   std::vector<std::uint8_t> is_at_wall(n), has_ghosts(n);
-  std::vector<std::int32_t> neighbours(n);  // of the soil
+  std::vector<std::int32_t> neighbours(n);  // of the soil, and of its images that move as it does
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
-      if (b >= n)
-        has_ghosts[a] = 1, is_at_wall[a] |= is_fixed_image(r, b);
-      else
-        ++neighbours[a];
+      const bool fixed = is_fixed_image(r, b);
+      if (b >= n) has_ghosts[a] = 1, is_at_wall[a] |= fixed;
+      if (!fixed) ++neighbours[a];
     });
     correction_[a] = has_ghosts[a] ? correction_by_soil(r, a) : r.correction[a];
   }
@@ -200,17 +199,6 @@ void FlowingSoil::take_velocities(const ReferenceConfiguration& r, const Particl
   gradient_.resize(at_walls_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < at_walls_.size(); ++k) gradient_[k] = gradients(r, p.velocity, at_walls_[k]);
-}
-
-std::vector<std::pair<std::int32_t, Mat2>> FlowingSoil::rates_at_walls(const ReferenceConfiguration& r,
-                                                                       std::span<const Vec2> v) const {
-  std::vector<std::pair<std::int32_t, Mat2>> rates;
-  if (!has_flowed_) return rates;
-  for (std::int32_t a = 0; a < static_cast<std::int32_t>(r.particles()); ++a)
-    if (loose_.is(a)) rates.emplace_back(a, Mat2::Zero());
-  for (const std::int32_t a : at_walls_)
-    if (!loose_.is(a)) rates.emplace_back(a, gradients(r, v, a).own);
-  return rates;
 }
 
 double FlowingSoil::deform_at_walls(double dt, PlaneTensors& deformation) const {

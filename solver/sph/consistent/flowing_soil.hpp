@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/particles/state.hpp"
@@ -39,10 +38,6 @@ class FlowingSoil {
   /// do not move with it is sheared as the law sees it, but its neighbours stay in place. Returns the largest
   /// |F - I| there. In soil that has flowed only.
   double deform_at_walls(double dt, PlaneTensors& deformation) const;
-
-  /// dF/dt of the particles whose F the steps do not carry: at fixed walls by the soil alone, else none.
-  std::vector<std::pair<std::int32_t, Mat2>> rates_at_walls(const ReferenceConfiguration& reference,
-                                                            std::span<const Vec2> velocities) const;
 
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {

@@ -36,8 +36,10 @@ struct TileStep {
         bears(c.flow.bears + (c.flow.viscosity ? tile.first : 0)),
         deforms(c.flow.deforms + (c.flow.viscosity ? tile.first : 0)),
         excess((c.state.excess ? c.state.excess : c.reference.fill) + tile.first),
+        volume_rate((c.state.volume_rate ? c.state.volume_rate : c.reference.fill) + tile.first),
         mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
         excess_share(c.state.excess ? 1 : 0),
+        imposed_share(c.state.volume_rate ? 1.0 / Space::dim : 0),
         mu(c.control.viscosity),
         length_squared(c.flow.length_squared),
         weight(c.flow.weight),
@@ -62,7 +64,11 @@ struct TileStep {
   /// The same where soil flows, also of particles whose F is not carried by their rate.
   [[gnu::always_inline]] Gradient gradient_in_flow(std::int32_t i) const {
     const Gradient r = gradient_at<Space>(rate, i);
-    return mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half * deforms[i], r));
+    Gradient g = mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half * deforms[i], r));
+    const double missing = imposed_share * (volume_rate[i] - g.trace());
+    g.xx += missing, g.yy += missing;
+    if constexpr (Space::dim == 3) g.zz += missing;
+    return g;
   }
   [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
     const double* s = stress + stress_size<Space> * i;
@@ -139,8 +145,8 @@ struct TileStep {
   std::int32_t particle;  ///< the tile's first
   const double *reference_density, *fill, *radius;
   double *stress, *density, *yields, *viscosity, *sheared, *hoop;
-  const double *bears, *deforms, *excess, *mass;
-  double excess_share;  ///< 0: the soil carries none, and `excess` is any array
+  const double *bears, *deforms, *excess, *volume_rate, *mass;
+  double excess_share, imposed_share;  ///< 0: the soil carries none, and `excess` or `volume_rate` is any array
   double mu, length_squared, weight, bulk_length, dt, half;
   const double *velocity[Space::dim], *rate[gradients], *correction[matrix];
   double *piola[matrix], *deformation[gradients], *flux[matrix];

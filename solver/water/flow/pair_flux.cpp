@@ -285,9 +285,11 @@ class Builder {
     if (mu_.empty()) return 0;
     return volume(l.from) * l.f * (reflected(l.to, mu_[root(l.to)]) - mu_[l.from]).dot(l.x);
   }
+  /// Among moved particles some see so little of the plane that a pair would lead water uphill.
   double conductance(const Link& l) const {
     const Vec2 k = permeability(l);
-    return weight(l, k) + mean(k) * closing(l);
+    const double c = weight(l, k) + mean(k) * closing(l);
+    return as_drawn_ ? c : std::max(0.0, c);
   }
 
   void fill() {
