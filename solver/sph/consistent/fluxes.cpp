@@ -103,7 +103,7 @@ void Fluxes::set_flux(const ReferenceConfiguration& r, std::size_t i, const Mat2
 void Fluxes::take_pressures_alone(const ReferenceConfiguration& r, const std::vector<double>& fill,
                                   const Fluxes& soil, std::span<const double> excess) {
   const auto take = [&](std::size_t i, const Mat2& p, double filled) {
-    piola_[i] = plane_tensor(p);
+    piola_.set(i, p);
     set_flux(r, i, filled * p * r.correction[i]);
   };
   const std::size_t n = r.particles();
@@ -113,7 +113,7 @@ void Fluxes::take_pressures_alone(const ReferenceConfiguration& r, const std::ve
     take(a, excess[a] * (Mat2() << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0)).finished(), fill[a]);
   }
   r.ghosts.for_each([&](std::size_t i) {
-    take(n + i, r.ghosts.mirrored<Mirrors::tensor>(i, matrix(piola_[r.ghosts.parent(i)])),
+    take(n + i, r.ghosts.mirrored<Mirrors::tensor>(i, Mat2(piola_[r.ghosts.parent(i)])),
          fill[r.ghosts.root(i)]);
   });
 }
@@ -125,10 +125,10 @@ void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vecto
     const std::size_t parent = r.ghosts.parent(i);
     const double fill = fills[r.ghosts.root(i)];
     const bool seen = fixed_walls_are_seen || r.ghosts.wall(i).kind != BoundaryKind::fixed;
-    const Mat2 control = seen ? Mat2(flux_[parent] - fill * matrix(piola_[parent]) * r.correction[parent])
+    const Mat2 control = seen ? Mat2(flux_[parent] - fill * piola_[parent] * r.correction[parent])
                               : Mat2(Mat2::Zero());
     set_flux(r, n + i,
-             fill * matrix(piola_[n + i]) * r.correction[n + i] + r.ghosts.mirrored_flux(i, control));
+             fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control));
   });
 }
 
@@ -143,14 +143,14 @@ void Fluxes::connect(ConsistentArrays& c, const ReferenceConfiguration& r) {
   c.fluxes.listed = r.listed.data();
   c.fluxes.records = records_.data();
   c.fluxes.mirrored = mirrored_.data();
-  c.fluxes.piola = piola_.data()->data();
+  piola_.connect(c.fluxes.piola);
 }
 
 void Fluxes::visit(StateArchive& state, const ReferenceConfiguration& r) {
   const std::size_t n = r.particles();
   for (auto& component : deformation_.component) state.array("deformation", component);
   for (auto& component : flux_.component) state.array("flux", std::span(component).first(n));
-  state.array("piola", std::span(piola_).first(n));
+  for (auto& component : piola_.component) state.array("piola", std::span(component).first(n));
   if (!state.restoring()) return;
   for (std::size_t a = 0; a < n; ++a)
     if (r.listed[a])
