@@ -174,8 +174,7 @@ void DynamicWater::answer(std::span<const double> head) {
   for (std::size_t a = 0; a < n; ++a)
     work_.answer[a] = surface_.fixed[a]
                           ? 0
-                          : of_.storage[a] * head[a] +
-                                dt * (work_.inflow[a] + surface_.outlet[a] * head[a]) +
+                          : of_.storage[a] * head[a] + dt * (work_.inflow[a] + surface_.outlet[a] * head[a]) +
                                 dt * gain * (work_.spread[a] + p.volume(a) * work_.rate[a]);
 }
 
@@ -203,8 +202,8 @@ void DynamicWater::precondition(double tolerance) {
   if (!solved.converged) throw Lost{worst()};
 }
 
-/// One turn along a direction that is conjugate to the last, whose square in the matrix was `overlap`; returns
-/// that of this one. What is left takes the right side's place.
+/// One turn along a direction that is conjugate to the last, whose square in the matrix was `overlap`;
+/// returns that of this one. What is left takes the right side's place.
 double DynamicWater::turn(double overlap) {
   const std::size_t n = of_.change.size();
   const double along_last = overlap > 0 ? -dot(work_.preconditioned, work_.answer) / overlap : 0;
@@ -308,8 +307,7 @@ void DynamicWater::visit(StateArchive& state) {
   state.array("dynamic_fixed", surface_.fixed);
   state.value("dynamic_surface_is_known", surface_.is_known);
   for (double* v : {&step_.dt, &step_.gain, &drained_, &taken_}) state.value("dynamic_total", *v);
-  for (std::int64_t* count :
-       {&counts_.steps, &counts_.krylov_iterations, &counts_.renewals, &counts_.turns})
+  for (std::int64_t* count : {&counts_.steps, &counts_.krylov_iterations, &counts_.renewals, &counts_.turns})
     state.value("dynamic_count", *count);
   work_.of_matrix = {};
   stencils_.visit(state, model_.particles);

@@ -108,7 +108,9 @@ class DynamicWater {
   bool is_enough(double start) const;
   void keep();
   void count_work(Kick kick, std::span<const Vec2> accelerations);
-  double held_water(std::size_t a) const { return of_.gained[a] + of_.storage[a] * of_.head[a] + of_.held[a]; }
+  double held_water(std::size_t a) const {
+    return of_.gained[a] + of_.storage[a] * of_.head[a] + of_.held[a];
+  }
   std::size_t worst() const;
 
   Model& model_;

@@ -56,8 +56,9 @@ void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
   // Takes the velocities' place in the records until the next step, when all have been strained.
   const Particles& p = model.particles;
   if (!controlled_[0].empty())
-    spread<Mirrors::motion>(
-        r, controlled_, [&](std::size_t a) { return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p)); });
+    spread<Mirrors::motion>(r, controlled_, [&](std::size_t a) {
+      return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p));
+    });
   behind_walls_.fill(r, piola_);
   if (friction.active()) friction.apply(r, piola_);
   fill_ghost_fluxes(r, p.fill, flow == nullptr);
@@ -125,10 +126,9 @@ void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vecto
     const std::size_t parent = r.ghosts.parent(i);
     const double fill = fills[r.ghosts.root(i)];
     const bool seen = fixed_walls_are_seen || r.ghosts.wall(i).kind != BoundaryKind::fixed;
-    const Mat2 control = seen ? Mat2(flux_[parent] - fill * piola_[parent] * r.correction[parent])
-                              : Mat2(Mat2::Zero());
-    set_flux(r, n + i,
-             fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control));
+    const Mat2 control =
+        seen ? Mat2(flux_[parent] - fill * piola_[parent] * r.correction[parent]) : Mat2(Mat2::Zero());
+    set_flux(r, n + i, fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control));
   });
 }
 

@@ -33,8 +33,8 @@ class Fluxes {
   void prepare_forces(const ReferenceConfiguration& reference, const Model& model,
                       const ZeroEnergySpring& spring, std::vector<double>* flow, WallFriction& friction);
 
-  /// In place of both: fluxes of pressures `excess` of the particles alone [Pa], where `soil` has deformed. All
-  /// walls mirror them, so that their force is the adjoint of the rate of volume.
+  /// In place of both: fluxes of pressures `excess` of the particles alone [Pa], where `soil` has deformed.
+  /// All walls mirror them, so that their force is the adjoint of the rate of volume.
   void take_pressures_alone(const ReferenceConfiguration& reference, const std::vector<double>& fill,
                             const Fluxes& soil, std::span<const double> excess);
 
