@@ -83,15 +83,27 @@ std::string tell(const Summary::WaterMotion& c) {
   return text + "\n";
 }
 
+std::string tell(const Summary::EnergyBudget& e) {
+  const auto share = [&](double part) { return fmt::format("{:.1f} %", 100 * part / e.released); };
+  std::string text = fmt::format(
+      "{:.4g} J/m released: {} dissipated by the soil, {} by the zero-energy control, {} by walls that stop "
+      "loose particles, {} by friction on walls, {} by the stress behind walls",
+      e.released, share(e.plastic), share(e.control), share(e.contact), share(e.friction), share(e.walls));
+  if (e.water != 0) text += fmt::format(", {} by the pore water", share(e.water));
+  return text + fmt::format(", {} unaccounted for\n", share(e.unaccounted));
+}
+
 Summary::WaterMotion motion_summary(const Simulation& s) {
-  const DynamicWater& water = *s.water_in_motion();
-  return {s.failed_at() < never ? s.failed_at() : 0,
-          water.counts().steps,
-          water.counts().krylov_iterations,
-          water.counts().renewals,
-          water.drained(),
-          water.imbalance(),
-          water.misfit()};
+  const double failed_at = s.failed_at() < never ? s.failed_at() : 0;
+  const DynamicWater* water = s.water_in_motion();
+  if (water == nullptr) return {.began = failed_at, .steps = s.moves()};
+  return {failed_at,
+          water->counts().steps,
+          water->counts().krylov_iterations,
+          water->counts().renewals,
+          water->drained(),
+          water->imbalance(),
+          water->misfit()};
 }
 
 Summary::TransientSeepage transient_summary(const Simulation& s) {
@@ -168,7 +180,7 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
     particle_steps = summary.particles * summary.transient->soil_sweeps;
     summary.time_step = s.time() / static_cast<double>(std::max<std::int64_t>(1, summary.steps));
   }
-  if (s.water_in_motion() != nullptr) summary.motion = motion_summary(s);
+  if (s.in_motion()) summary.motion = motion_summary(s);
   if (s.follows_flow()) summary.steps += s.moves(), particle_steps += summary.particles * s.moves();
   summary.courant = s.courant();
   summary.threads = omp_get_max_threads();
@@ -221,16 +233,7 @@ std::string tell(const Summary& s) {
     text += fmt::format(
         "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
         s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
-  if (s.energy && s.energy->released > 0)
-    text += fmt::format(
-        "{:.4g} J/m released: {:.1f} % dissipated by the soil, {:.1f} % by the zero-energy "
-        "control, {:.1f} % by walls that stop loose particles, {:.1f} % by friction on walls, {:.1f} % by "
-        "the "
-        "stress behind walls, {:.1f} % unaccounted for\n",
-        s.energy->released, 100 * s.energy->plastic / s.energy->released,
-        100 * s.energy->control / s.energy->released, 100 * s.energy->contact / s.energy->released,
-        100 * s.energy->friction / s.energy->released, 100 * s.energy->walls / s.energy->released,
-        100 * s.energy->unaccounted / s.energy->released);
+  if (s.energy && s.energy->released > 0) text += tell(*s.energy);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
   if (s.transient) text += tell(*s.transient);

@@ -117,6 +117,10 @@ Rows energy_table(const std::vector<LoadedRun>& runs) {
   share("by the stress behind walls", &Budget::walls);
   share("by the diffusion of stress", &Budget::diffusion);
   share("by bulk viscosity", &Budget::bulk_viscosity);
+  if (std::ranges::any_of(runs, [](const LoadedRun& r) {
+        return r.run.summary->energy && r.run.summary->energy->water != 0;
+      }))
+    share("by the pore water", &Budget::water);
   share("unaccounted for", &Budget::unaccounted);
   return rows;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/case/pores.hpp"
 #include "solver/water/flow/outline.hpp"
 
 namespace porosph {
@@ -25,8 +26,9 @@ void check_unused(const Case& c, Issues& issues) {
     unused(!seeps && soil.permeability.x() > 0, "permeability", "\"steady\", \"coupled\" or \"transient\"");
     unused(!steady && !transient && soil.retention.model != RetentionModel::saturated, "retention",
            "\"steady\" or \"transient\"");
-    unused(steady && soil.porosity > 0, "porosity", "\"coupled\", \"undrained\" or \"transient\"");
-    const double porosity = soil.porosity > 0 ? soil.porosity : 0.4;
+    unused(!transient && !c.water.couples() && soil.porosity > 0, "porosity",
+           "\"coupled\", \"undrained\" or \"transient\"");
+    const double porosity = porosity_of(soil);
     if (soil.retention.residual >= porosity)
       issues.push_back({fmt::format("soil[{}].retention.residual", i),
                         fmt::format("must be < {:g}, the porosity", porosity)});

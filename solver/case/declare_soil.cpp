@@ -163,7 +163,6 @@ void declare_pores(Fields& f, SoilCase& c) {
            c.permeability.y(), above(0, most_permeable));
   f.number(Key("porosity", "",
                "Part of the soil that is pores: what water fills, and what gives way with its volume.")
-               .only_if(c.permeability.x() > 0, "permeability")
                .otherwise("0.4"),
            c.porosity, {.min = 0, .max = 1, .min_included = false, .max_included = false});
 }

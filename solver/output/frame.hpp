@@ -75,7 +75,8 @@ struct Summary {
     double walls = 0;           ///< by the stress that is extrapolated behind walls
     double diffusion = 0;       ///< by the diffusion of stress
     double bulk_viscosity = 0;  ///< by bulk viscosity
-    double unaccounted = 0;     ///< the rest: what the integration loses or gains
+    double water = 0;        ///< taken by pore water that moves with the soil: stored, and dissipated in it
+    double unaccounted = 0;  ///< the rest: what the integration loses or gains
   };
   std::optional<EnergyBudget> energy;
   /// What water did that flows.

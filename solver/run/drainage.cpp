@@ -1,5 +1,6 @@
 #include "solver/run/drainage.hpp"
 
+#include "solver/case/pores.hpp"
 #include "solver/water/flow/default_faces.hpp"
 
 namespace porosph {
@@ -30,11 +31,9 @@ PressureStabilisation pressure_stabilisation(std::vector<SoilCase> soils, std::s
 }
 
 std::vector<double> storage_of_water(const Case& scene, const Particles& p) {
-  constexpr double usual_porosity = 0.4;
   std::vector<double> storage;
   for (std::size_t a = 0; a < p.size(); ++a) {
-    const SoilCase& soil = scene.soils[p.soil[a]];
-    const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
+    const double porosity = porosity_of(scene.soils[p.soil[a]]);
     storage.push_back(scene.water.unit_weight * porosity * p.volume(a) / scene.water.coupling.bulk_modulus);
   }
   return storage;

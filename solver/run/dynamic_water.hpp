@@ -1,13 +1,12 @@
-// Excess pore pressure of saturated soil in motion: one pressure solve for each step.
+// Excess pore pressure of saturated soil in motion: one pressure for each step.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "solver/run/consolidation.hpp"
-#include "solver/run/drainage.hpp"
 #include "solver/run/leapfrog.hpp"
+#include "solver/run/water_stencils.hpp"
 #include "solver/sph/dynamics.hpp"
 
 namespace porosph {
@@ -22,38 +21,35 @@ namespace porosph {
 ///   (S + dt H + T + dt^2 D 1/rho D^T gamma_w) dh = W + dt R(h) - dV(v*) - S h - Z,
 ///   v = v* + dt D^T dp_e / rho,     Z += T dh.
 ///
-/// D is the soil's own rate of volume and D^T its adjoint, the soil's own force. Their product is wide and
-/// blind for what alternates. T = tau (L_compact - L_wide) with tau = gamma_w dt^2 / rho (see
-/// PressureStabilisation) completes it to the compact Laplacian, which is what is solved with: inside the
-/// soil the solution is that of the step, to the tolerance, so neither k nor K_w shortens the step. W is
-/// carried on by what flows, so the water's balance is exact, and a step makes good what the one before it
-/// left.
-///
-/// Stencils of the flow are those of the soil as drawn until the soil's reference is renewed, from then on
-/// those of its particles as they lie: walls mirror them, and the free surface drains.
+/// D is the soil's own rate of volume and D^T its adjoint, the force of a pressure: the matrix is symmetric
+/// and positive, and water takes from the soil what it gets. D D^T is wide and blind for what alternates.
+/// T = tau (L_compact - L_wide) with tau = gamma_w dt^2 / rho (see PressureStabilisation) completes it to the
+/// compact Laplacian, by which conjugate gradients are preconditioned: in a lattice that is the answer, and
+/// among particles that have flowed a few turns lead to it. Neither k nor K_w shortens the step. W is carried
+/// on by what flows, so the water's balance is exact, and a step makes good what the one before it left.
 class DynamicWater {
  public:
   struct Counts {
     std::int64_t steps = 0, krylov_iterations = 0, renewals = 0;
+    std::int64_t turns = 0;  ///< of the conjugate gradients that those iterations precondition
   };
 
   DynamicWater(const Case& scene, Model& model, Dynamics& dynamics);
 
-  /// Thrown where W and what soil and pressure hold have parted.
+  /// Thrown where no pressure lets the soil keep its water.
   struct Lost {
     std::size_t particle;
   };
 
-  /// From soil at rest in a flow over time, which particles take along: no excess pressure arises.
-  void begin_drained();
-  /// The soil carries these pressures from now on.
-  void take_over() { dynamics_.carry_excess(of_.excess); }
-
   /// In place of the dynamics' own: follows a renewed reference.
   void prepare();
+  /// Adds what the present pressures do to the accelerations.
+  void add_force(std::span<Vec2> accelerations);
   /// Adds to the accelerations, with which `kick` and a step dt [s] move the particles, what the change of
   /// pressure in that step does. Throws Lost.
   void add_change(Kick kick, double dt, std::span<Vec2> accelerations);
+  /// Takes in how the soil moved in a step dt [s]; returns how fast that changes its volume [1/s].
+  std::span<const double> take_strain(double dt);
 
   std::span<const double> head() const { return of_.head; }      ///< excess, of the particles [m]
   std::span<const double> excess() const { return of_.excess; }  ///< p_e [Pa]
@@ -65,6 +61,8 @@ class DynamicWater {
   double energy() const;  ///< of the compressed water, per metre of thickness [J/m]
   /// What water_energy() makes of p_e where p_w includes it [J/m].
   double shown_energy() const;
+  /// What the soil has given to the water: that energy, and what flow and implicit steps dissipate [J/m].
+  double taken() const { return taken_; }
   const Counts& counts() const { return counts_; }
   void visit(StateArchive& state);  ///< saves or restores all of it
 
@@ -72,55 +70,58 @@ class DynamicWater {
   /// Of each particle.
   struct Amounts {
     std::vector<double> storage;       ///< S [m]
-    std::vector<double> start_volume;  ///< [m2]
+    std::vector<double> gained;        ///< dV [m2]
     std::vector<double> head, excess;  ///< h [m]; p_e [Pa]
     std::vector<double> water;         ///< W [m2]
     std::vector<double> held;          ///< Z [m2]
     std::vector<double> change;        ///< the last dh [m]
-    std::vector<double> open;          ///< what the free surface adds to the compact Laplacian [m3/s2]
   };
-  struct Stencils {
-    std::optional<Drainage> drainage;  ///< nothing: undrained
-    PressureStabilisation inertia;     ///< T for dt = 1 s
-    SparseRows flow;                   ///< -dR/dh
-    std::vector<double> still_inflow;  ///< R(0) [m2/s]
+  /// Of each particle, where the soil ends.
+  struct Surface {
+    std::vector<double> open;         ///< what it adds to the compact Laplacian [m3/s2]
+    std::vector<double> outlet;       ///< what flows out there per head, once the soil has moved [m/s]
+    std::vector<std::uint8_t> fixed;  ///< 1 where the head stays 0
+    bool is_known = false;
+  };
+  struct Step {
+    double dt = 0, gain = 0;  ///< [s]
+    bool operator==(const Step&) const = default;
   };
   struct Scratch {
     std::vector<double> rate, inflow, right_side, pressure, spread;
-    std::vector<Vec2> velocity, push;
+    std::vector<double> direction, answer, preconditioned;
+    std::vector<Vec2> velocity, push, present, change;
     SparseRows matrix;
-    double of_dt = 0, of_gain = 0;  ///< the step that the matrix is for [s]
+    Step of_matrix;
   };
-  void find_fixed();
-  void renew();
-  void make_stencils(const Particles& as_they_lie);
-  void take_stencils();
   void measure_surface();
-  void check_volumes() const;
+  void find_fixed();
+  void hold_anew();
   void let_through();
-  void make_matrix(double dt, double gain);
+  void make_matrix();
   double find_inflow();
-  void make_right_side(Kick kick, double dt, std::span<const Vec2> accelerations);
+  void make_right_side(Kick kick, std::span<const Vec2> accelerations);
   void solve();
-  void keep(double dt, double gain);
-  double held_water(std::size_t a) const;
+  void precondition(double tolerance);
+  void answer(std::span<const double> head);
+  double turn(double overlap);
+  bool is_enough(double start) const;
+  void keep();
+  void count_work(Kick kick, std::span<const Vec2> accelerations);
+  double held_water(std::size_t a) const {
+    return of_.gained[a] + of_.storage[a] * of_.head[a] + of_.held[a];
+  }
+  std::size_t worst() const;
 
-  Case scene_;
   Model& model_;
   Dynamics& dynamics_;
   double unit_weight_;
-  std::vector<double> inertia_;          ///< gamma_w / rho of each soil [m/s2]
-  bool drained_soil_ = false;            ///< no excess pressure arises
-  std::vector<std::uint8_t> lies_free_;  ///< of the particles: at a free surface, once the soil has moved
-  std::vector<std::uint8_t> fixed_;      ///< of the particles: they keep their head, 0
+  WaterStencils stencils_;
   Amounts of_;
-  Stencils stencils_;
+  Surface surface_;
+  Step step_;  ///< the last
   Scratch work_;
-  /// Where the present stencils were made; nothing: as drawn.
-  std::vector<Vec2> made_at_;
-  std::vector<double> density_then_;
-  double drained_ = 0;
-  bool surface_is_known_ = false;
+  double drained_ = 0, taken_ = 0;
   Counts counts_;
 };
 

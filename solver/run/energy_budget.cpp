@@ -7,7 +7,7 @@ namespace porosph {
 std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, double at_start) {
   const FlowingSoil* flow = simulation.dynamics().flow();
   const LoadingCase& loading = simulation.scene().loading;
-  if (flow == nullptr || simulation.water_in_motion() != nullptr || !simulation.scene().footings.empty() ||
+  if (flow == nullptr || simulation.follows_flow() || !simulation.scene().footings.empty() ||
       loading.adaptive_damping || loading.damping > 0)
     return std::nullopt;
   const Simulation::Energy now = simulation.energy();
@@ -23,10 +23,12 @@ std::optional<Summary::EnergyBudget> energy_budget(Simulation& simulation, doubl
                                .friction = simulation.dynamics().work_of_wall_friction(),
                                .diffusion = work.diffusion,
                                .bulk_viscosity = work.viscous};
+  const DynamicWater* water = simulation.water_in_motion();
+  if (water != nullptr) budget.released += water->energy(), budget.water = water->taken();
   budget.walls = flow->wall_work().work() - budget.friction;
   budget.unaccounted = budget.released - budget.kinetic - budget.elastic - budget.plastic - budget.control -
                        budget.contact - budget.friction - budget.walls - budget.diffusion -
-                       budget.bulk_viscosity;
+                       budget.bulk_viscosity - budget.water;
   return budget;
 }
 

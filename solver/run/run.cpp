@@ -201,7 +201,7 @@ class Recorder {
     }
   }
   void record_what_is_due() {
-    if (s_.follows_flow() && s_.water_in_motion() != nullptr) {
+    if (s_.follows_flow() && s_.in_motion()) {
       const bool due = s_.motion_is_due();
       return record(due, due);
     }

@@ -73,7 +73,7 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
     throw std::runtime_error("the case has stages ([[stage]]), which porosph run and porosph check follow");
   forces_.accelerations.assign(model_.particles.size(), Vec2::Zero());
   for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
-  if (scene.water.flows_over_time() && scene.water.coupling.motion != WaterMotion::quasi_static)
+  if (scene.water.is_dynamic())
     motion_.water = std::make_unique<DynamicWater>(moved(scene, -model_.origin), model_, *dynamics_);
   motion_.now = scene.water.is_dynamic();
   if (scene.water.couples() && !motion_.now) couple();
@@ -210,11 +210,12 @@ std::span<const Vec2> Simulation::accelerations() {
 /// Where pressure moves with the soil, p_w is that of the water that stands meanwhile.
 void Simulation::sum_forces() {
   std::vector<Vec2>& a = forces_.accelerations;
-  motion_.now ? motion_.water->prepare() : dynamics_->prepare();
+  motion_.water ? motion_.water->prepare() : dynamics_->prepare();
   dynamics_->accelerations(a);
+  if (motion_.water) motion_.water->add_force(a);
   surface_.press(model_, time(), a);
   if (flow_.seepage) flow_.seepage->add_weight(model_.particles, model_.gravity, a);
-  if (motion_.now && !surface_.footings.empty()) forces_.unheld = a;
+  if (motion_.water && !surface_.footings.empty()) forces_.unheld = a;
   hold_footings(a);
 }
 
@@ -242,12 +243,14 @@ void Simulation::advance_in_motion() {
   accelerations();
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? forces_.accelerations : std::vector<Vec2>();
-  if (motion_.now && !change_pressure()) return;
+  if (motion_.water && !change_pressure()) return;
   drift();
   forces_.valid = false;
   clock_.go_on();
   if (instability()) return;
-  dynamics_->strain(step_length());
+  const std::span<const double> of_water =
+      motion_.water ? motion_.water->take_strain(step_length()) : std::span<const double>();
+  dynamics_->strain(step_length(), of_water);
   model_.pore_water->flow(model_.water, model_.particles, step_length());
   if (motion_.now) show_excess();
   if (measure) relaxation_.measure(model_.particles, before, accelerations(), step_length());
@@ -291,7 +294,7 @@ void Simulation::visit(StateArchive& state) {
   model_.pore_water->visit(state);
   if (flow_.coupled) flow_.coupled->visit(state);
   if (flow_.seepage) flow_.settling.visit(state);
-  if (motion_.water) visit_motion(state);
+  if (scene_.water.flows_over_time()) visit_motion(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   forces_.valid = false;
@@ -331,7 +334,7 @@ double Simulation::unbalanced_force_ratio() {
 
 Simulation::Energy Simulation::energy() {
   const std::vector<Vec2> v = velocities();
-  const double of_excess = motion_.now ? motion_.water->energy() - motion_.water->shown_energy() : 0;
+  const double of_excess = motion_.water ? motion_.water->energy() - motion_.water->shown_energy() : 0;
   return {.kinetic = kinetic_energy(model_.particles, v),
           .elastic = elastic_energy(model_),
           .gravity = gravity_energy(model_) + load_energy(surface_.loads, model_.particles, time()),

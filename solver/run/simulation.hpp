@@ -67,8 +67,10 @@ class Simulation {
   const Consolidation* consolidation() const { return flow_.coupled.get(); }  ///< null unless coupled
   const TransientWater* seepage() const { return flow_.seepage.get(); }       ///< null unless transient
   std::int64_t settling_sweeps() const { return flow_.settling.sweeps; }      ///< of the soil in that flow
-  /// Null unless the soil moves with its inertia and pore pressures of its own.
-  const DynamicWater* water_in_motion() const { return motion_.now ? motion_.water.get() : nullptr; }
+  /// Whether the soil moves with its inertia and the water in it.
+  bool in_motion() const { return motion_.now; }
+  /// Null unless excess pore pressure arises in that.
+  const DynamicWater* water_in_motion() const { return motion_.water.get(); }
   /// Of water that has left coupled soil; nothing elsewhere [m2].
   std::optional<double> drained() const;
   /// Whether time is counted by a flow, whose steps are as long as it allows.
@@ -151,9 +153,9 @@ class Simulation {
       return coupled ? coupled->advance(now, until) : seepage->advance(now, until);
     }
   };
-  /// Soil that moves with its inertia and pore pressures of its own.
+  /// Soil that moves with its inertia, and its water with it.
   struct Motion {
-    std::unique_ptr<DynamicWater> water;  ///< null where that never happens
+    std::unique_ptr<DynamicWater> water;  ///< null where no excess pressure arises
     bool now = false;
     double failed_at = never;  ///< when soil lost its equilibrium in a flow [s]
   };

@@ -40,7 +40,6 @@ void Simulation::begin_motion() {
   end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
   flow_.seepage->stop(model_.particles);
-  motion_.water->begin_drained();
   dynamics_->strain(0);  // it remembers velocities
   forces_.valid = false;
 }
@@ -57,6 +56,7 @@ void Simulation::choose_ticks() {
 void Simulation::show_excess() {
   Particles& p = model_.particles;
   model_.pore_water->follow(model_.water, p, 0, p.size());
+  if (!motion_.water) return;
   const auto excess = motion_.water->excess();
   for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += excess[a];
 }
@@ -89,10 +89,8 @@ void Simulation::visit_motion(StateArchive& state) {
   state.value("moves", clock_.moves);
   state.value("failed_at", motion_.failed_at);
   if (!motion_.now) return;
-  motion_.water->visit(state);
-  if (!state.restoring()) return;
-  motion_.water->take_over();
-  if (follows_flow()) end_after_motion();
+  if (motion_.water) motion_.water->visit(state);
+  if (state.restoring() && follows_flow()) end_after_motion();
 }
 
 }  // namespace porosph

@@ -31,18 +31,19 @@ class Dynamics {
   virtual void velocity_gradients(std::span<Mat2> out) = 0;
 
   /// Carries effective stress and density over a step dt [s], in which the particles moved with their present
-  /// velocities from where the last prepare() saw them.
-  virtual void strain(double dt) = 0;
+  /// velocities from where the last prepare() saw them. `volume_rates`, if given: of the particles, those of
+  /// their water, which the laws of soil that flows take for their own.
+  virtual void strain(double dt, std::span<const double> volume_rates = {}) = 0;
 
   /// From the next strain() on, the excess pore pressure p_e of each particle [Pa] acts with its effective
   /// stress, as one stress; `excess` is read whenever the particles are strained.
   virtual void carry_excess(std::span<const double> excess);
 
-  /// Accelerations that pressures `excess` [Pa] alone give, one per particle [m/s2]: what carrying them adds.
+  /// Accelerations that pressures `excess` [Pa] alone give, one per particle [m/s2]. Walls mirror them.
   virtual void excess_accelerations(std::span<const double> excess, std::span<Vec2> out);
-  /// How fast each particle's volume would grow with these velocities [m/s], over its volume [1/s]: what
-  /// strain() would make of them, and the adjoint of the above.
-  virtual void volume_rates(std::span<const Vec2> velocities, std::span<double> out);
+  /// How fast each particle's volume grows with these velocities [m/s], over its volume [1/s]: the adjoint of
+  /// the above. `ahead`: not as the soil is deformed now, but so much later with these velocities [s].
+  virtual void volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead = 0);
 
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
   /// saving. Lists and gradients are rebuilt by the code that made them first. Throws StateError.
@@ -66,7 +67,7 @@ inline void Dynamics::carry_excess(std::span<const double>) {
 inline void Dynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2>) {
   carry_excess(excess);
 }
-inline void Dynamics::volume_rates(std::span<const Vec2>, std::span<double>) { carry_excess({}); }
+inline void Dynamics::volume_rates(std::span<const Vec2>, std::span<double>, double) { carry_excess({}); }
 
 /// The dynamics that the case asks for.
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/case/pores.hpp"
 #include "solver/water/flow/steady_seepage.hpp"
 
 namespace porosph {
 namespace {
 
-constexpr double usual_porosity = 0.4;
 constexpr double first_share = 0.01;  // of a particle's pores that the first step may fill
 constexpr double least_share = 1e-4;  // of the first step: the shortest one
 
@@ -19,7 +19,7 @@ std::vector<Pores> pores_of(const Case& scene, const Particles& p) {
   std::vector<Pores> pores;
   for (const std::int32_t s : p.soil) {
     const SoilCase& soil = scene.soils[s];
-    const double porosity = soil.porosity > 0 ? soil.porosity : usual_porosity;
+    const double porosity = porosity_of(soil);
     pores.push_back({.free = porosity - soil.retention.residual,
                      .elastic = porosity * scene.water.unit_weight / scene.water.coupling.bulk_modulus});
   }

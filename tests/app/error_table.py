@@ -109,6 +109,7 @@ CLOSED = '[[water.face]]\nkind = "closed"\n'
 ON_TOP = '[[water.face]]\nkind = "head"\nlevel = 3\nfrom = [0, 2]\nto = [4, 2]\n'
 IN_THE_FLOW = [
     ("permeability of soil whose water stands", WEIGHT, PERMEABLE + "[water]\nlevel = 3\n"),
+    ("porosity of soil whose water stands", WEIGHT, WEIGHT + "porosity = 0.5\n[water]\nlevel = 3\n"),
     ("flow in soil without permeability", WEIGHT, WEIGHT + STEADY + CLOSED + ON_TOP),
     ("a part of the outline without a face", WEIGHT, PERMEABLE + STEADY + ON_TOP),
     ("a face beside the soil", WEIGHT, PERMEABLE + STEADY + CLOSED + ON_TOP.replace("2]", "2.5]")),

@@ -23,11 +23,11 @@ TEST_CASE("rain lets a slope slide, and its history goes on", "[water][dynamic]"
   RunWatch watch;
   watch.history = [&](const std::vector<double>& row) {
     CHECK(row.size() == history_columns(s).size());
-    if (s.water_in_motion() == nullptr) rested_at = s.largest_displacement();
-    rows_in_motion += s.water_in_motion() != nullptr ? 1 : 0;
+    if (!s.in_motion()) rested_at = s.largest_displacement();
+    rows_in_motion += s.in_motion() ? 1 : 0;
   };
   run_to_end(s, watch);
-  REQUIRE(s.water_in_motion() != nullptr);
+  REQUIRE(s.in_motion());
   CHECK(s.failed_at() > 48 * hour);
   CHECK(s.failed_at() < 96 * hour);
   CHECK(s.time() == Approx(s.failed_at() + motion_time).margin(1e-3));
@@ -39,7 +39,7 @@ TEST_CASE("rain lets a slope slide, and its history goes on", "[water][dynamic]"
 TEST_CASE("a slide goes on to the same bits from a kept state", "[water][dynamic]") {
   Simulation first(slope()), second(slope());
   first.begin();
-  while (first.water_in_motion() == nullptr && !first.instability()) first.advance();
+  while (!first.in_motion() && !first.instability()) first.advance();
   for (int k = 0; k < 100; ++k) first.advance();
   KeptState(first).restore(second);
   for (int k = 0; k < 100; ++k) first.advance(), second.advance();

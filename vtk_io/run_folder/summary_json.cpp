@@ -125,7 +125,7 @@ Json to_json(const Summary::EnergyBudget& e) {
   put(json, "plastic", e.plastic), put(json, "control", e.control), put(json, "contact", e.contact);
   put(json, "wall_friction", e.friction), put(json, "walls", e.walls);
   put(json, "stress_diffusion", e.diffusion), put(json, "bulk_viscosity", e.bulk_viscosity);
-  put(json, "unaccounted", e.unaccounted);
+  put(json, "pore_water", e.water), put(json, "unaccounted", e.unaccounted);
   return json;
 }
 
@@ -403,6 +403,7 @@ Summary::EnergyBudget energy_from(const Object& e) {
           .walls = newer("walls"),
           .diffusion = e.number("stress_diffusion"),
           .bulk_viscosity = e.number("bulk_viscosity"),
+          .water = newer("pore_water"),
           .unaccounted = e.number("unaccounted")};
 }
 

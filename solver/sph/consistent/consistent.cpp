@@ -120,7 +120,7 @@ bool ConsistentDynamics::strangers_are_near() {
 }
 
 void ConsistentDynamics::take_velocities() {
-  fluxes_.take_velocities(reference_, model_.particles.velocity);
+  fluxes_.take_velocities<Mirrors::motion>(reference_, model_.particles.velocity);
   if (flow_.active()) flow_.take_velocities(reference_, model_.particles);
 }
 
@@ -167,7 +167,7 @@ Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
-  fluxes_.take_velocities(reference_, model_.particles.velocity);
+  fluxes_.take_velocities<Mirrors::motion>(reference_, model_.particles.velocity);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
     std::array<PlaneTensor, PairStencils::tile> rate;
@@ -198,26 +198,26 @@ void ConsistentDynamics::excess_accelerations(std::span<const double> excess, st
     kernels_.accelerate(arrays, tile, out.data()->data());
 }
 
-/// The velocities of the particles take their place again for the next forces.
-void ConsistentDynamics::volume_rates(std::span<const Vec2> velocities, std::span<double> out) {
-  fluxes_.take_velocities(reference_, velocities);
-  const auto rate_of = [&](std::size_t a, const Mat2& rate) {
-    return (rate * inverse(fluxes_.deformation(a))).trace();
-  };
+/// Soil slides along walls as far as its volume is concerned: what moves along them strains nothing. Loose
+/// particles keep theirs. The velocities of the particles take their place again for the next forces.
+void ConsistentDynamics::volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead) {
+  fluxes_.take_velocities<Mirrors::direction>(reference_, velocities);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
-    std::array<PlaneTensor, PairStencils::tile> rate;
-    kernels_.rates(arrays_, tile, rate.data()->data());
+    std::array<PlaneTensor, PairStencils::tile> rates;
+    kernels_.rates(arrays_, tile, rates.data()->data());
     const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
-    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
-      out[a] = rate_of(a, matrix(rate[a - first]));
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
+      const Mat2 rate = matrix(rates[a - first]);
+      const double carried = flow_.active() ? flow_.deforms()[a] : 1;
+      const bool is_loose = flow_.active() && flow_.loose().is(a);
+      out[a] = is_loose ? 0 : (rate * inverse(fluxes_.deformation(a) + ahead * carried * rate)).trace();
+    }
   }
-  if (flow_.active())
-    for (const auto& [a, rate] : flow_.rates_at_walls(reference_, velocities)) out[a] = rate_of(a, rate);
-  fluxes_.take_velocities(reference_, model_.particles.velocity);
+  fluxes_.take_velocities<Mirrors::motion>(reference_, model_.particles.velocity);
 }
 
-void ConsistentDynamics::strain(double dt) {
+void ConsistentDynamics::strain(double dt, std::span<const double> volume_rates) {
   if (flow_.active()) {
     flow_.loose().walls().stepped(dt);
     flow_.count_work(reference_, model_.particles, dt);
@@ -226,7 +226,9 @@ void ConsistentDynamics::strain(double dt) {
   }
   take_velocities();
   const double at_walls = flow_.active() ? flow_.deform_at_walls(dt, fluxes_.deformation()) : 0;
+  arrays_.state.volume_rate = volume_rates.data();
   const LargestChange largest = strain_all(dt);
+  arrays_.state.volume_rate = nullptr;
   since_.strain = std::max(at_walls, largest.strain);
   if (friction_.active()) friction_.slide(model_, dt);
   since_.travel += dt * std::sqrt(largest.speed_squared);

@@ -37,10 +37,10 @@ class ConsistentDynamics final : public Dynamics {
   void prepare() override;
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
-  void strain(double dt) override;
+  void strain(double dt, std::span<const double> volume_rates) override;
   void carry_excess(std::span<const double> excess) override { arrays_.state.excess = excess.data(); }
   void excess_accelerations(std::span<const double> excess, std::span<Vec2> out) override;
-  void volume_rates(std::span<const Vec2> velocities, std::span<double> out) override;
+  void volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead) override;
   void visit(StateArchive& state) override;
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
   double work_of_wall_friction() const override { return friction_.work(); }

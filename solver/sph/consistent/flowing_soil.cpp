@@ -149,11 +149,6 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
     if (loose_.is(a) || (has_flowed_ && rows_.see_fixed(a))) deforms_[a] = 0;
 }
 
-std::vector<std::pair<std::int32_t, Mat2>> FlowingSoil::rates_at_walls(const ReferenceConfiguration& r,
-                                                                       std::span<const Vec2> v) const {
-  return has_flowed_ ? rows_.rates(r, v, loose_) : std::vector<std::pair<std::int32_t, Mat2>>();
-}
-
 void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& p,
                               const PlaneTensors& piola) {
   wall_work_.sample(r, p, piola);

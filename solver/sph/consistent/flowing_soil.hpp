@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/particles/state.hpp"
@@ -43,10 +42,6 @@ class FlowingSoil {
   double deform_at_walls(double dt, PlaneTensors& deformation) const {
     return has_flowed_ ? rows_.deform(dt, loose_, deformation) : 0;
   }
-  /// dF/dt of the particles whose F the steps do not carry; none before soil has flowed.
-  std::vector<std::pair<std::int32_t, Mat2>> rates_at_walls(const ReferenceConfiguration& reference,
-                                                            std::span<const Vec2> velocities) const;
-
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
     work_.diffusion += diffusion_.apply(model, kernels, arrays);

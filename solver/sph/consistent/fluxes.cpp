@@ -26,7 +26,7 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
 
 /// Writes the vector of_particle(a) of each particle, and of their ghosts what moves with it, into `field`
 /// and the records' velocity lanes.
-template <class Of>
+template <Mirrors how, class Of>
 void Fluxes::spread(const ReferenceConfiguration& r, std::array<std::vector<double>, 2>& field,
                     Of&& of_particle) {
   double *x = field[0].data(), *y = field[1].data();
@@ -37,12 +37,16 @@ void Fluxes::spread(const ReferenceConfiguration& r, std::array<std::vector<doub
   const std::size_t n = r.particles();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) write(a, of_particle(a));
-  r.ghosts.fill<Mirrors::motion>([&](std::size_t k) { return Vec2(x[k], y[k]); }, write);
+  r.ghosts.fill<how>([&](std::size_t k) { return Vec2(x[k], y[k]); }, write);
 }
 
+template <Mirrors how>
 void Fluxes::take_velocities(const ReferenceConfiguration& r, std::span<const Vec2> velocities) {
-  spread(r, velocity_, [&](std::size_t a) { return velocities[a]; });
+  spread<how>(r, velocity_, [&](std::size_t a) { return velocities[a]; });
 }
+template void Fluxes::take_velocities<Mirrors::motion>(const ReferenceConfiguration&, std::span<const Vec2>);
+template void Fluxes::take_velocities<Mirrors::direction>(const ReferenceConfiguration&,
+                                                          std::span<const Vec2>);
 
 void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
                             const ZeroEnergySpring& spring, std::vector<double>* flow,
@@ -52,8 +56,9 @@ void Fluxes::prepare_forces(const ReferenceConfiguration& r, const Model& model,
   // Takes the velocities' place in the records until the next step, when all have been strained.
   const Particles& p = model.particles;
   if (!controlled_[0].empty())
-    spread(r, controlled_,
-           [&](std::size_t a) { return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p)); });
+    spread<Mirrors::motion>(r, controlled_, [&](std::size_t a) {
+      return Vec2(p.velocity[a] + spring.of(a, p) * spring.stretch(a, r, p));
+    });
   behind_walls_.fill(r, piola_);
   if (friction.active()) friction.apply(r, piola_);
   fill_ghost_fluxes(r, p.fill, flow == nullptr);
@@ -89,21 +94,29 @@ void Fluxes::take_pressures(const ReferenceConfiguration& r, const Model& model)
     if (r.listed[i]) records_[i].q[pressure_lane] = pressure_[i];
 }
 
+void Fluxes::set_flux(const ReferenceConfiguration& r, std::size_t i, const Mat2& flux) {
+  flux_.set(i, flux);
+  if (!r.listed[i]) return;
+  for (int k = 0; k < 4; ++k) records_[i].q[k] = flux(k / 2, k % 2);
+}
+
 /// P = J p_e F^-T.
 void Fluxes::take_pressures_alone(const ReferenceConfiguration& r, const std::vector<double>& fill,
                                   const Fluxes& soil, std::span<const double> excess) {
+  const auto take = [&](std::size_t i, const Mat2& p, double filled) {
+    piola_.set(i, p);
+    set_flux(r, i, filled * p * r.correction[i]);
+  };
+  const std::size_t n = r.particles();
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < excess.size(); ++a) {
+  for (std::size_t a = 0; a < n; ++a) {
     const Mat2 f = soil.deformation_[a];
-    const Mat2 p = excess[a] * (Mat2() << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0)).finished();
-    const Mat2 flux = fill[a] * p * r.correction[a];
-    flux_.set(a, flux);
-    if (mirrored_[a]) piola_.set(a, p);
-    if (!r.listed[a]) continue;
-    for (int k = 0; k < 4; ++k) records_[a].q[k] = flux(k / 2, k % 2);
+    take(a, excess[a] * (Mat2() << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0)).finished(), fill[a]);
   }
-  behind_walls_.fill(r, piola_);
-  fill_ghost_fluxes(r, fill, true);
+  r.ghosts.for_each([&](std::size_t i) {
+    take(n + i, r.ghosts.mirrored<Mirrors::tensor>(i, Mat2(piola_[r.ghosts.parent(i)])),
+         fill[r.ghosts.root(i)]);
+  });
 }
 
 void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vector<double>& fills,
@@ -115,11 +128,7 @@ void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vecto
     const bool seen = fixed_walls_are_seen || r.ghosts.wall(i).kind != BoundaryKind::fixed;
     const Mat2 control =
         seen ? Mat2(flux_[parent] - fill * piola_[parent] * r.correction[parent]) : Mat2(Mat2::Zero());
-    const Mat2 flux = fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
-    flux_.set(n + i, flux);
-    if (!r.listed[n + i]) return;
-    double* q = records_[n + i].q;
-    for (int k = 0; k < 4; ++k) q[k] = flux_.component[k][n + i];
+    set_flux(r, n + i, fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control));
   });
 }
 

@@ -25,6 +25,7 @@ class Fluxes {
          const LooseParticles* loose);
 
   /// Velocities of the particles, and the ghosts'.
+  template <Mirrors how>
   void take_velocities(const ReferenceConfiguration& reference, std::span<const Vec2> velocities);
   /// What the next forces need beside the flux of the particles: pore pressure, v + k * displacement for the
   /// zero-energy control, and the ghosts' P and flux.
@@ -33,6 +34,7 @@ class Fluxes {
                       const ZeroEnergySpring& spring, std::vector<double>* flow, WallFriction& friction);
 
   /// In place of both: fluxes of pressures `excess` of the particles alone [Pa], where `soil` has deformed.
+  /// All walls mirror them, so that their force is the adjoint of the rate of volume.
   void take_pressures_alone(const ReferenceConfiguration& reference, const std::vector<double>& fill,
                             const Fluxes& soil, std::span<const double> excess);
 
@@ -51,11 +53,12 @@ class Fluxes {
   void visit(StateArchive& state, const ReferenceConfiguration& reference);
 
  private:
-  template <class Of>
+  template <Mirrors how, class Of>
   void spread(const ReferenceConfiguration& reference, std::array<std::vector<double>, 2>& field,
               Of&& of_particle);
   void take_pressures(const ReferenceConfiguration& reference, const Model& model);
   void take_viscosities(const ReferenceConfiguration& reference, std::vector<double>& viscosity);
+  void set_flux(const ReferenceConfiguration& reference, std::size_t of, const Mat2& flux);
   void fill_ghost_fluxes(const ReferenceConfiguration& reference, const std::vector<double>& fill,
                          bool fixed_walls_are_seen);
 

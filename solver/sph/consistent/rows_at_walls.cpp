@@ -26,10 +26,9 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
-      if (b >= n)
-        sees_ghosts_[a] = 1, sees_fixed_[a] |= is_fixed_image(r, b);
-      else
-        ++neighbours_[a];
+      const bool fixed = is_fixed_image(r, b);
+      if (b >= n) sees_ghosts_[a] = 1, sees_fixed_[a] |= fixed;
+      if (!fixed) ++neighbours_[a];
     });
     correction_[a] = sees_ghosts_[a] ? correction_by_soil(r, a) : r.correction[a];
   }
@@ -62,17 +61,6 @@ void RowsAtWalls::take_velocities(const ReferenceConfiguration& r, const Particl
   gradient_.resize(particles_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < particles_.size(); ++k) gradient_[k] = gradients(r, p.velocity, particles_[k]);
-}
-
-std::vector<std::pair<std::int32_t, Mat2>> RowsAtWalls::rates(const ReferenceConfiguration& r,
-                                                              std::span<const Vec2> v,
-                                                              const LooseParticles& loose) const {
-  std::vector<std::pair<std::int32_t, Mat2>> rates;
-  for (std::int32_t a = 0; a < static_cast<std::int32_t>(r.particles()); ++a)
-    if (loose.is(a)) rates.emplace_back(a, Mat2::Zero());
-  for (const std::int32_t a : particles_)
-    if (!loose.is(a)) rates.emplace_back(a, gradients(r, v, a).own);
-  return rates;
 }
 
 double RowsAtWalls::deform(double dt, const LooseParticles& loose, PlaneTensors& deformation) const {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/sph/consistent/loose_particles.hpp"
@@ -23,7 +22,8 @@ class RowsAtWalls {
 
   bool see_fixed(std::size_t a) const { return sees_fixed_[a] != 0; }  ///< images, of particle a
   std::span<const std::uint8_t> see_ghosts() const { return sees_ghosts_; }
-  std::span<const std::int32_t> neighbours() const { return neighbours_; }  ///< of each particle, in the soil
+  /// Of each particle: in the soil, and its images that move as it does.
+  std::span<const std::int32_t> neighbours() const { return neighbours_; }
   std::span<const Mat2> correction() const { return correction_; }  ///< L of eq. (10) by the soil alone
   bool is_blind(std::size_t a) const { return blind_[a] != 0; }
 
@@ -37,12 +37,6 @@ class RowsAtWalls {
   void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
   /// Carries F over a step dt [s] by the soil alone. Returns the largest |F - I| there.
   double deform(double dt, const LooseParticles& loose, PlaneTensors& deformation) const;
-  /// dF/dt of the particles whose F the steps do not carry: at fixed walls by the soil alone; none of loose
-  /// ones.
-  std::vector<std::pair<std::int32_t, Mat2>> rates(const ReferenceConfiguration& reference,
-                                                   std::span<const Vec2> velocities,
-                                                   const LooseParticles& loose) const;
-
   /// Takes the images out of the control, whose `viscosity` mu is that of each particle [Pa s]: puts the
   /// soil's own gradient into the `flux` of each blind particle, after a step ...
   void leave_out(const ReferenceConfiguration& reference, std::span<const double> viscosity,

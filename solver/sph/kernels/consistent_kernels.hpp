@@ -69,6 +69,8 @@ struct SoilStateViewIn {
   double* interface_stress;  ///< tau [Pa]
   double* yields;            ///< 1 where the soil yielded in the last step, or else 0; null: nobody asks
   const double* excess;      ///< p_e, which acts with the effective stress [Pa]; null: none
+  const double*
+      volume_rate;  ///< where soil flows: trace of the velocity gradient that laws see; null: its own
 };
 
 /// What a step leaves for the next forces. In Axisymmetric each particle stands for a radian: the flux is

@@ -30,12 +30,14 @@ struct TileStep {
         control(c.control),
         flow(c.flow),
         excess_share(c.state.excess ? 1 : 0),
+        imposed_share(c.state.volume_rate ? 1.0 / Space::dim : 0),
         dt(step),
         half(0.5 * step) {
     if (!c.state.excess) state.excess = c.reference.fill;
+    if (!c.state.volume_rate) state.volume_rate = c.reference.fill;
     const auto begin = [&](auto&... of_all) { ((of_all += of_all ? particle : 0), ...); };
     begin(reference.density, reference.fill, reference.radius, fluxes.hoop);
-    begin(state.density, state.yields, state.excess);
+    begin(state.density, state.yields, state.excess, state.volume_rate);
     begin(flow.viscosity, flow.sheared, flow.bears, flow.deforms, flow.mass);
     state.stress += stress_size<Space> * particle;
     for (int d = 0; d < Space::dim; ++d) velocity[d] = c.motion.velocity[d] + particle;
@@ -52,7 +54,12 @@ struct TileStep {
   /// The same where soil flows, also of particles whose F is not carried by their rate.
   [[gnu::always_inline]] Gradient gradient_in_flow(std::int32_t i) const {
     const Gradient r = gradient_at<Space>(rate, i);
-    return mid_step_gradient(r, plus(gradient_at<Space>(state.deformation, i), half * flow.deforms[i], r));
+    Gradient g =
+        mid_step_gradient(r, plus(gradient_at<Space>(state.deformation, i), half * flow.deforms[i], r));
+    const double missing = imposed_share * (state.volume_rate[i] - g.trace());
+    g.xx += missing, g.yy += missing;
+    if constexpr (Space::dim == 3) g.zz += missing;
+    return g;
   }
   [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
     const double* s = state.stress + stress_size<Space> * i;
@@ -134,7 +141,8 @@ struct TileStep {
   FluxViewIn<Space> fluxes;
   StabilisationView control;
   FlowView flow;
-  double excess_share;  ///< 0: the soil carries none, and `excess` is any array
+  double excess_share;   ///< 0: the soil carries none, and `excess` is any array
+  double imposed_share;  ///< likewise of `volume_rate`
   double dt, half;
   const double *velocity[Space::dim], *rate[gradients];
   double* piola[matrix];

@@ -219,7 +219,7 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
   }
 }
 
-void PaperDynamics::strain(double dt) {
+void PaperDynamics::strain(double dt, std::span<const double>) {
   stop_.stepped(dt);
   points_.take_velocities(model_.particles);
   arrays_.soil = {soils_.view(), &model_.particles.stress.data()->xx, model_.particles.density.data()};

@@ -43,7 +43,7 @@ class PaperDynamics final : public Dynamics {
   void prepare() override;
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
-  void strain(double dt) override;
+  void strain(double dt, std::span<const double> volume_rates) override;
   void visit(StateArchive& state) override;
 
  private:

@@ -45,7 +45,7 @@ class SecondMoment {
 
 Conductances::Conductances(const std::vector<SoilCase>& soils, const Particles& particles,
                            const FlowLinks& links, double spacing, bool closed)
-    : soils_(soils), p_(particles), links_(links), spacing_(spacing) {
+    : soils_(soils), p_(particles), links_(links), spacing_(spacing), closed_(closed) {
   make_moments();
   for (int i = 0; closed && close() && i < corrections; ++i) correct_moments();
 }
@@ -153,9 +153,11 @@ double Conductances::closing(const FlowLink& l) const {
   return links_.volume(l.from) * l.f *
          (links_.reflected(l.to, mu_[links_.root(l.to)]) - mu_[l.from]).dot(l.x);
 }
+/// Without mu, among moved particles, some see so little of the plane that a pair would lead water uphill.
 double Conductances::of(const FlowLink& l) const {
   const Vec2 k = permeability(l);
-  return weight(l, k) + mean(k) * closing(l);
+  const double c = weight(l, k) + mean(k) * closing(l);
+  return closed_ ? c : std::max(0.0, c);
 }
 
 }  // namespace porosph

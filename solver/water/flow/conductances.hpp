@@ -39,6 +39,7 @@ class Conductances {
   const Particles& p_;
   const FlowLinks& links_;
   double spacing_;
+  bool closed_;
   std::vector<Moments> moments_;
   std::vector<std::uint8_t> held_;  ///< 1 where the links span the plane
   std::vector<Vec2> mu_;

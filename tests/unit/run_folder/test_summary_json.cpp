@@ -274,7 +274,7 @@ TEST_CASE("the energy budget of a summary is read as it was written, and is left
   Summary summary = example();
   CHECK_FALSE(written(folder, summary).contains("energy_budget"));
   CHECK_FALSE(read_again(folder, summary).energy);
-  summary.energy = {7.4, 0.07, 0.01, 6.4, 0.76, 0.03, 0.04, 0.01, 0.05, 0.02, 0.08};
+  summary.energy = {7.4, 0.07, 0.01, 6.4, 0.76, 0.03, 0.04, 0.01, 0.05, 0.02, 0.3, 0.08};
   CHECK(written(folder, summary).at("energy_budget") == json({{"released", 7.4},
                                                               {"kinetic", 0.07},
                                                               {"elastic", 0.01},
@@ -285,6 +285,7 @@ TEST_CASE("the energy budget of a summary is read as it was written, and is left
                                                               {"walls", 0.01},
                                                               {"stress_diffusion", 0.05},
                                                               {"bulk_viscosity", 0.02},
+                                                              {"pore_water", 0.3},
                                                               {"unaccounted", 0.08}}));
   const auto read = read_again(folder, summary).energy;
   REQUIRE(read);
@@ -293,5 +294,6 @@ TEST_CASE("the energy budget of a summary is read as it was written, and is left
   CHECK(read->contact == 0.03);
   CHECK(read->friction == 0.04);
   CHECK(read->walls == 0.01);
+  CHECK(read->water == 0.3);
   CHECK(read->unaccounted == 0.08);
 }

@@ -1,0 +1,95 @@
+#include "solver/run/water_stencils.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace porosph {
+namespace {
+
+/// What mirrors soil that has left its outline: closed stretches.
+HydraulicOutline outline_of(const std::vector<Wall>& walls) {
+  HydraulicOutline outline;
+  outline.stretches = walls;
+  outline.first = {0};
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    outline.patches.push_back(
+        {.stretch = static_cast<int>(i), .from = 0, .to = (walls[i].to - walls[i].from).norm(), .face = 0});
+    outline.first.push_back(static_cast<std::int32_t>(i + 1));
+  }
+  return outline;
+}
+
+DarcyFlow flow_of_moved(const std::vector<SoilCase>& soils, const HydraulicOutline& walls, const Particles& p,
+                        double spacing) {
+  const std::vector<double> below(p.size(), -1e9);
+  const std::vector<Retention> full(soils.size());
+  return {make_flow_pairs_of_moved(soils, walls, p, spacing), walls, full, p.soil, below};
+}
+
+}  // namespace
+
+WaterStencils::WaterStencils(const Case& scene, const Model& model)
+    : soils_(scene.soils),
+      of_inertia_(scene.soils),
+      walls_(outline_of(model.walls)),
+      spacing_(model.spacing),
+      drainage_(drainage(scene, model.particles)) {
+  std::vector<double> tau;
+  for (const SoilCase& soil : soils_)
+    tau.push_back(scene.water.unit_weight * scene.loading.gravity / soil.unit_weight_saturated);
+  for (std::size_t i = 0; i < tau.size(); ++i) of_inertia_[i].permeability = Point::Constant(tau[i]);
+  inertia_ = pressure_stabilisation(soils_, tau, model.particles, spacing_);
+  take_slope(model.particles.size());
+}
+
+void WaterStencils::renew(const Particles& p) {
+  made_at_ = p.position;
+  density_then_ = p.density;
+  make(p);
+}
+
+void WaterStencils::make(const Particles& p) {
+  if (drainage_)
+    drainage_ = Drainage{.outline = walls_,
+                         .faces = FaceConditions(walls_, {{.kind = FaceKind::closed}}, true),
+                         .flow = flow_of_moved(soils_, walls_, p, spacing_),
+                         .pinned = std::vector<std::int32_t>(p.size(), -1)};
+  inertia_ = {flow_of_moved(of_inertia_, walls_, p, spacing_), walls_, p.position};
+  take_slope(p.size());
+}
+
+/// Saturated flow is linear: its rates at h = 0 and its slope are all of it.
+void WaterStencils::take_slope(std::size_t n) {
+  still_inflow_.assign(n, 0);
+  if (!drainage_) return;
+  const std::vector<double> zero(n, 0);
+  drainage_->flow.assemble(zero, drainage_->faces, DarcyFlow::Slope::secant, slope_, still_inflow_);
+}
+
+double WaterStencils::through_faces(std::span<const double> head) const {
+  if (!drainage_) return 0;
+  const std::vector<double> through = drainage_->flow.through_patches(head, drainage_->faces);
+  return std::accumulate(through.begin(), through.end(), 0.0);
+}
+
+double WaterStencils::outlet(const Vec2& face, std::size_t a, const Particles& p) const {
+  const double length = face.norm(), half_cell = std::sqrt(p.volume(a) / p.fill[a]) / 2;
+  if (!drainage_ || !has_moved() || length == 0) return 0;
+  const Vec2 normal = face / length;
+  return soils_[p.soil[a]].permeability.dot(normal.cwiseProduct(normal)) * length / half_cell;
+}
+
+void WaterStencils::visit(StateArchive& state, const Particles& p) {
+  bool moved = has_moved();
+  state.value("dynamic_moved", moved);
+  if (!moved) return;
+  made_at_.resize(p.size()), density_then_.resize(p.size());
+  state.array("dynamic_position", made_at_);
+  state.array("dynamic_density", density_then_);
+  if (!state.restoring()) return;
+  Particles then = p;
+  then.position = made_at_, then.density = density_then_;
+  make(then);
+}
+
+}  // namespace porosph

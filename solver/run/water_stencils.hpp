@@ -1,0 +1,49 @@
+// What the pore water of soil in motion flows by: the soil as it was drawn, and then as its particles lie.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "solver/run/drainage.hpp"
+
+namespace porosph {
+
+/// As drawn until renew(); from then on walls mirror the particles as they lie, and no face was drawn.
+class WaterStencils {
+ public:
+  WaterStencils(const Case& scene, const Model& model);
+
+  /// T for a step of 1 s, with tau = gamma_w / rho.
+  const PressureStabilisation& inertia() const { return inertia_; }
+  bool drains() const { return drainage_.has_value(); }
+  bool has_moved() const { return !made_at_.empty(); }
+  /// On a face that drains, as drawn.
+  bool is_pinned(std::size_t a) const { return drainage_ && drainage_->pinned[a] >= 0; }
+  /// H = -dR/dh: only where it drains.
+  const SparseRows& slope() const { return slope_; }
+  std::span<const double> still_inflow() const { return still_inflow_; }  ///< R(0) [m2/s]
+  double through_faces(std::span<const double> head) const;               ///< [m2/s]
+  /// What flows out through a free face of half a cell's depth, per head [m/s]. `face`: its length along the
+  /// normal [m].
+  double outlet(const Vec2& face, std::size_t a, const Particles& particles) const;
+
+  void renew(const Particles& particles);
+  void visit(StateArchive& state, const Particles& particles);  ///< saves or restores all of it
+
+ private:
+  void make(const Particles& as_they_lie);
+  void take_slope(std::size_t particles);
+
+  std::vector<SoilCase> soils_, of_inertia_;  ///< those of the second have gamma_w / rho as permeability
+  HydraulicOutline walls_;
+  double spacing_;
+  std::optional<Drainage> drainage_;  ///< nothing: undrained
+  PressureStabilisation inertia_;
+  SparseRows slope_;
+  std::vector<double> still_inflow_;
+  std::vector<Vec2> made_at_;  ///< nothing: as drawn
+  std::vector<double> density_then_;
+};
+
+}  // namespace porosph
