@@ -92,7 +92,7 @@ void draw_collapse(const Workplace& place) {
 void draw_footing(const Workplace& place) {
   for (const char* line : {"run '" POROSPH_SOURCE_DIR
                            "/cases/loads/footing_weight.toml' --quiet --threads 1 --out results/footing",
-                           "render results/footing --field PlasticStrain --range 0.03,10"}) {
+                           "render results/footing --field PlasticStrain --range 0.03,20"}) {
     CAPTURE(line);
     REQUIRE(place.porosph(line).status == 0);
   }
