@@ -27,7 +27,10 @@ void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {
 void find_by_particles(const Case& scene, const SafetyRequest& request, SafetyAnswer& answer) {
   StrengthReductionOptions options{
       .bracket = request.bracket, .jobs = request.jobs, .from = request.from, .interrupted = is_interrupted};
-  if (answer.limit_equilibrium) options.first_guess = answer.limit_equilibrium->bishop.factor;
+  if (answer.limit_equilibrium) {
+    options.first_guess = answer.limit_equilibrium->bishop.factor;
+    if (answer.limit_equilibrium->general) options.lower_guess = answer.limit_equilibrium->general->factor;
+  }
   if (!request.quiet)
     options.finished = [](const StrengthTrial& t) {
       say(stdout, fmt::format("strength / {:<7.4f} {}, {:.4g} m after {} steps\n", t.factor, words_of(t.end),

@@ -20,6 +20,7 @@
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/case_keys.hpp"
 #include "solver/case/safety_obstacle.hpp"
 #include "solver/model/model.hpp"
 #include "solver/printable.hpp"
@@ -202,7 +203,8 @@ std::vector<double> numbers_of(const SweepAxis& axis) {
 
 /// The factor over a setting.
 int follow_setting(const Case& scene, const fs::path& case_file, const Options& o, const fs::path& folder) {
-  SafetyCurve curve{scene.title, o.vary->title, numbers_of(*o.vary), {}};
+  const std::string& key = o.vary->title;
+  SafetyCurve curve{scene.title, key, unit_of_key(key), numbers_of(*o.vary), {}};
   for (const SweepValue& value : o.vary->values) {
     std::vector<std::string> settings = o.overrides;
     settings.insert(settings.end(), value.settings.begin(), value.settings.end());

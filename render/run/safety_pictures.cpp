@@ -131,7 +131,7 @@ void save_safety_over_setting(const SafetyCurve& curve, const std::filesystem::p
     }
   }
   Chart chart{.title = "",
-              .x = {.title = curve.key},
+              .x = {.title = fmt::format("{} [{}]", curve.key, curve.unit)},
               .y = {.title = "factor of safety [-]"},
               .series = {},
               .references = {}};

@@ -1,5 +1,7 @@
 #include "solver/case/case_keys.hpp"
 
+#include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "solver/case/fields.hpp"
@@ -43,7 +45,7 @@ class Collector : public Fields {
 
  private:
   void add(const Key& key, std::vector<std::string> values = {}) {
-    keys.push_back({path_ + std::string(key.name), std::move(values)});
+    keys.push_back({path_ + std::string(key.name), std::string(key.unit), std::move(values)});
   }
   void within(const std::string& inner, const std::function<void()>& contents) {
     const std::string outer = std::exchange(path_, path_ + inner);
@@ -53,6 +55,13 @@ class Collector : public Fields {
   std::string path_;
 };
 
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts;
+  std::istringstream text(path);
+  for (std::string part; std::getline(text, part, '.');) parts.push_back(part);
+  return parts;
+}
+
 }  // namespace
 
 std::vector<CaseKey> case_keys() {
@@ -60,6 +69,16 @@ std::vector<CaseKey> case_keys() {
   Case defaults;
   declare(collector, defaults);
   return collector.keys;
+}
+
+std::string unit_of_key(const std::string& path) {
+  const std::vector<std::string> parts = parts_of(path);
+  const auto same = [](const std::string& declared, const std::string& given) {
+    return declared == "0" || declared == given;
+  };
+  for (const CaseKey& key : case_keys())
+    if (std::ranges::equal(parts_of(key.path), parts, same) && !key.unit.empty()) return key.unit;
+  return "-";
 }
 
 }  // namespace porosph

@@ -32,7 +32,6 @@ std::string safety_obstacle(const Case& scene) {
 std::string limit_equilibrium_obstacle(const Case& scene) {
   if (scene.water.flows())
     return fmt::format("is for still water, but water.mode is \"{}\"", name(scene.water.mode));
-  if (scene.loading.horizontal != 0) return "knows no horizontal acceleration (loading.horizontal)";
   if (!scene.footings.empty()) return "knows no footing ([[footing]])";
   return "";
 }

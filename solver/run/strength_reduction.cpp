@@ -193,8 +193,9 @@ class Search {
   }
 
   std::vector<double> first_factors() const {
-    const double guess = std::clamp(options_.first_guess, options_.least, options_.most);
-    return {0.97 * guess, 1.03 * guess};
+    const auto allowed = [&](double f) { return std::clamp(f, options_.least, options_.most); };
+    return {0.97 * allowed(std::min(options_.first_guess, options_.lower_guess)),
+            1.03 * allowed(options_.first_guess)};
   }
 
   /// As many as there are jobs, between the bracket's ends or beyond its open one; none when it is narrow.

@@ -41,6 +41,7 @@ struct StrengthReduction {
 struct StrengthReductionOptions {
   double bracket = 0.01;             ///< width at which the search ends: fails_at - stable_at
   double first_guess = 1.3;          ///< where to begin
+  double lower_guess = never;        ///< a second below it, where there are two; the factor may be between
   double least = 0.05, most = 50;    ///< factors beyond which no more are tried
   int jobs = 1;                      ///< trials at a time, each on one core
   const HandedOver* from = nullptr;  ///< state of the body, which trials begin with; null: that at the start

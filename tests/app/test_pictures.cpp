@@ -88,18 +88,30 @@ void draw_collapse(const Workplace& place) {
   }
 }
 
+/// What fails under a footing on sand, by the commands of theory.md.
+void draw_footing(const Workplace& place) {
+  for (const char* line : {"run '" POROSPH_SOURCE_DIR
+                           "/cases/loads/footing_weight.toml' --quiet --threads 1 --out results/footing",
+                           "render results/footing --field PlasticStrain --range 0.03,20"}) {
+    CAPTURE(line);
+    REQUIRE(place.porosph(line).status == 0);
+  }
+}
+
 std::vector<DrawnPicture> draw_all(const Workplace& place) {
   draw_foundation(place);
   draw_collapse(place);
   draw_tutorial(place);
   draw_levee(place);
+  draw_footing(place);
   const fs::path& f = place.folder();
   return {{"foundation.png", f / "foundation/TotalStress_YY.png"},
           {"column_collapse.png", f / "results/column_collapse/PlasticStrain.png"},
           {"tutorial_stress.png", f / "results/my_slope/EffectiveStress_YY.png"},
           {"tutorial_history.png", f / "results/my_slope_report/history.png"},
           {"tutorial_drawdown.png", f / "results/drawdown/EffectiveStress_YY.png"},
-          {"tutorial_levee_water.png", f / "results/levee_water.png"}};
+          {"tutorial_levee_water.png", f / "results/levee_water.png"},
+          {"footing_on_sand.png", f / "results/footing/PlasticStrain.png"}};
 }
 
 /// Of red, green and blue over all pixels, of 255.

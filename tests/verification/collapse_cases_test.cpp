@@ -66,6 +66,36 @@ TEST_CASE("slides and cuts that ship run to their end above their base", "[failu
   CHECK(lowest > 0);
 }
 
+// Clay whose strength falls from 52 to 20 kPa in bands of half a metre.
+TEST_CASE("how far a softening cut comes does not hang on the spacing", "[failure]") {
+  const auto settings = [](double spacing) {
+    return Settings{fmt::format("particles.spacing={:g}", spacing),
+                    "time.end=2",
+                    "soil.clay.undrained_strength=52e3",
+                    "soil.clay.sensitivity=2.6",
+                    "soil.clay.softening=exponential",
+                    "soil.clay.softening_strain=0.125",
+                    "soil.clay.softening_length=0.5"};
+  };
+  const auto mean_way = [&](double spacing) {
+    Simulation simulation(scene("failure/vertical_cut", settings(spacing)));
+    run_to_end(simulation);
+    const Particles& p = simulation.model().particles;
+    double sum = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += p.displacement(i).norm();
+    return sum / static_cast<double>(p.size());
+  };
+  const double usual = mean_way(0.5);
+  CHECK(usual > 1);
+  for (const double spacing : {1.0, 0.25})
+    expect({.name = "failure/vertical_cut",
+            .settings = settings(spacing),
+            .quantity = "mean way of softening clay in 2 s, difference",
+            .reference = "the same at 0.5 m",
+            .resolution = metres(spacing)},
+           std::abs(mean_way(spacing) / usual - 1), 0.2);
+}
+
 TEST_CASE("soil slides under water in the paper's forms as well, along walls beyond where it lay",
           "[failure]") {
   const Motion motion = GENERATE(Motion::proposed, Motion::rho_squared);

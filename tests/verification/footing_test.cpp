@@ -63,6 +63,20 @@ TEST_CASE("slip lines have Martin's bearing capacity factors", "[footing]") {
   CHECK(SlipLines(30, true).n_gamma() == Approx(14.754).epsilon(1e-3));
 }
 
+TEST_CASE("a rough footing on clay bears 2 + pi times its strength", "[footing]") {
+  const double spacing = GENERATE(0.2, 0.1);
+  const Settings settings = {fmt::format("particles.spacing={:g}", spacing)};
+  Simulation pressed(scene("loads/bearing_capacity", settings));
+  run_to_end(pressed);
+  const double factor = pressed.footings()[0].force() / 10e3;  // of half the footing, 1 m wide
+  expect({.name = "loads/bearing_capacity",
+          .settings = settings,
+          .quantity = fmt::format("load over the undrained strength: {:.3f}", factor),
+          .reference = "Prandtl: 5.142",
+          .resolution = metres(spacing)},
+         std::abs(factor / (2 + std::numbers::pi) - 1), spacing < 0.15 ? 0.02 : 0.03);
+}
+
 TEST_CASE("a footing on weightless sand bears the surcharge times N_q", "[footing]") {
   const auto [friction, settlement] = GENERATE(table<double, double>({{20, 0.0003}, {30, 0.0008}}));
   const double spacing = GENERATE(0.2, 0.1);

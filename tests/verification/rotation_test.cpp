@@ -1,4 +1,6 @@
 // Large rotations: stress turns with the body; a free body keeps its momenta and its energy.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -67,6 +69,21 @@ TEST_CASE("rotation: stress and density follow three rigid turns") {
     expect({"rotation", settings, "stress and density after three turns of 100 steps, imposed",
             "rotated tensor", metres(0.1)},
            stress_error_of_rigid_turns(settings, 3, 100), 5e-12, scientific);
+}
+
+/// Strength with which the stress of these turns is just on Mohr and Coulomb's surface, to 16 digits.
+Settings yielding() {
+  const double sine = std::sin(20 * M_PI / 180), radius = std::hypot(1e4, 1e4);
+  const double largest = -2e4, least = -4e4 - radius;  // tension positive
+  const double c = (largest - least + (largest + least) * sine) / (2 * std::sqrt(1 - sine * sine));
+  return {"soil.block.law=mohr_coulomb", "soil.block.friction_angle=20",
+          fmt::format("soil.block.cohesion={:.17g}", c)};
+}
+
+TEST_CASE("rotation: a block on its yield surface keeps its stress over three rigid turns") {
+  expect({"rotation", yielding(), "stress and density of a yielding block after three turns, imposed",
+          "rotated tensor", metres(0.1)},
+         stress_error_of_rigid_turns(yielding(), 3, 100), 5e-12, scientific);
 }
 
 TEST_CASE("rotation: a spinning block keeps momenta and energy") {

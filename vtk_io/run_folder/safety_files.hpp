@@ -54,7 +54,7 @@ void write_trials(const std::filesystem::path& file, const StrengthReduction& fo
 void write_slip_surfaces(const std::filesystem::path& file, const SafetyAnswer& answer);
 /// What was found with each value of a setting.
 struct SafetyCurve {
-  std::string title, key;  ///< "water.level"
+  std::string title, key, unit;  ///< "water.level", "m"
   std::vector<double> values;
   std::vector<SafetyAnswer> answers;  ///< one for each
 };

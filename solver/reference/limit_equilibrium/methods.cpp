@@ -36,8 +36,7 @@ struct Balance {
 std::optional<double> bishop(std::span<const Slice> slices, const Point& centre, double radius) {
   double driving = 0;  // clockwise moment over the radius
   for (const Slice& s : slices)
-    driving +=
-        s.weight * (s.base.x() - centre.x()) - (s.top_torque + centre.x() * s.press + centre.y() * s.push);
+    driving += s.weight * (s.base.x() - centre.x()) - (s.torque + centre.x() * s.press + centre.y() * s.push);
   driving /= radius;
   if (driving <= 0) return std::nullopt;
   double factor = 1;
@@ -70,7 +69,7 @@ std::optional<SpencerResult> spencer(std::span<const Slice> slices, const Spence
       const double by_l = -b.difference * (factor * s.sine - s.strength.tan_friction * s.cosine) / b.share;
       const double x = s.base.x() - origin.x(), y = s.base.y() - origin.y(), arm = y - lambda * x;
       force += b.difference, force_by_f += by_f, force_by_l += by_l;
-      moment += b.difference * arm + s.push * y + s.press * x + s.top_torque + origin.x() * s.press +
+      moment += b.difference * arm + s.push * y + s.press * x + s.torque + origin.x() * s.press +
                 origin.y() * s.push;
       moment_by_f += by_f * arm, moment_by_l += by_l * arm - b.difference * x;
       size += std::abs(b.difference);

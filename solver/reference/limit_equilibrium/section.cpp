@@ -46,11 +46,13 @@ int Section::Column::soil_at(double x, double y) const {
 }
 
 Section::Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight,
-                 std::vector<GroundLoad> loads)
+                 std::vector<GroundLoad> loads, double horizontal, FreeEnds free)
     : soils_(std::move(soils)),
       water_(std::move(water)),
       water_unit_weight_(water_unit_weight),
-      loads_(std::move(loads)) {
+      loads_(std::move(loads)),
+      horizontal_(horizontal),
+      free_(free) {
   for (const SectionSoil& soil : soils_)
     if (!(soil.unit_weight_saturated > 0 && soil.unit_weight_unsaturated > 0))
       throw std::invalid_argument("limit equilibrium: unit weights must be > 0 N/m3");
@@ -74,7 +76,8 @@ Section Section::mirrored() const {
   std::vector<GroundLoad> loads = loads_;
   for (GroundLoad& load : loads)
     for (Point* p : {&load.from, &load.to, &load.traction_from, &load.traction_to}) p->x() = -p->x();
-  return {std::move(soils), std::move(water), water_unit_weight_, std::move(loads)};
+  return {std::move(soils), std::move(water), water_unit_weight_,
+          std::move(loads), -horizontal_,     {free_.right, free_.left}};
 }
 
 std::vector<double> Section::corners() const {
@@ -142,17 +145,23 @@ std::size_t Section::column_of(double x) const {
   return static_cast<std::size_t>(right_of - columns_.begin());
 }
 
-double Section::weight_above(const Column& column, double x, double y) const {
+Section::Pillar Section::pillar_above(const Column& column, double x, double y) const {
   const double level = column.water_level(x);
-  double weight = 0;
+  Pillar pillar;
+  double moment = 0;
+  const auto add = [&](double bottom, double top, double unit_weight) {
+    const double weight = (top - bottom) * unit_weight;
+    pillar.weight += weight, moment += weight * 0.5 * (bottom + top);
+  };
   for (const Strip& s : column.strips) {
     const double bottom = std::max(y, column.at(s.bottom, x)), top = column.at(s.top, x);
     if (top <= bottom) continue;
-    const double wet = std::clamp(level, bottom, top) - bottom;
     const SectionSoil& soil = soils_[static_cast<std::size_t>(s.soil)];
-    weight += wet * soil.unit_weight_saturated + (top - bottom - wet) * soil.unit_weight_unsaturated;
+    const double wet = std::clamp(level, bottom, top);
+    add(bottom, wet, soil.unit_weight_saturated), add(wet, top, soil.unit_weight_unsaturated);
   }
-  return weight;
+  pillar.centre = pillar.weight > 0 ? moment / pillar.weight : y;
+  return pillar;
 }
 
 double Section::pore_pressure(const Column& column, double x, double y) const {
@@ -184,6 +193,13 @@ void Section::trace_ground() {
     ground.push_back(right);
     open = true;
   }
+  if (columns_.empty() || columns_.front().strips.empty() || columns_.back().strips.empty()) return;
+  const Column &first = columns_.front(), &last = columns_.back();
+  const Point left{first.from, first.floor(first.from)}, right{last.to, last.floor(last.to)};
+  const auto below = [&](const Point& end, const Point& ground) { return ground.y() - end.y() > smallest_; };
+  if (free_.left && below(left, grounds_.front().front()))
+    grounds_.front().insert(grounds_.front().begin(), left);
+  if (free_.right && below(right, grounds_.back().back())) grounds_.back().push_back(right);
 }
 
 }  // namespace porosph::limit_equilibrium

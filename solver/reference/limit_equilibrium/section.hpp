@@ -44,12 +44,18 @@ struct GroundLoad {
   Point traction_from, traction_to;  ///< force per area [Pa]
 };
 
+/// Whether the upright ends of a section are free faces; soil goes on beyond others.
+struct FreeEnds {
+  bool left = false, right = false;
+};
+
 /// Soils and water between neighbouring corners, where all lines are straight. Coordinates in m.
 class Section {
  public:
+  /// `horizontal`: acceleration to the right over g that acts on the soil and the water in it beside gravity.
   /// Throws std::invalid_argument where a unit weight is not positive.
   Section(std::vector<SectionSoil> soils, std::vector<WaterPiece> water, double water_unit_weight,
-          std::vector<GroundLoad> loads = {});
+          std::vector<GroundLoad> loads = {}, double horizontal = 0, FreeEnds free = {});
 
   /// The same section seen from behind: x becomes -x.
   Section mirrored() const;
@@ -80,17 +86,22 @@ class Section {
 
   const std::vector<Column>& columns() const { return columns_; }
   const std::vector<SectionSoil>& soils() const { return soils_; }
+  double horizontal() const { return horizontal_; }
   /// The column over x, the left one of two; columns().size() outside.
   std::size_t column_of(double x) const;
 
-  /// Weight of what lies between y and the ground, per area [Pa].
-  double weight_above(const Column& column, double x, double y) const;
+  /// What lies between y and the ground over x.
+  struct Pillar {
+    double weight = 0;  ///< per area [Pa]
+    double centre = 0;  ///< y of its middle of mass [m]
+  };
+  Pillar pillar_above(const Column& column, double x, double y) const;
   /// u >= 0 below the water's surface [Pa].
   double pore_pressure(const Column& column, double x, double y) const;
   /// What the loads do at a place on the ground: force per area [Pa].
   Point traction_at(const Point& place) const;
 
-  /// Unbroken pieces of ground, from left to right; upright steps are segments of no width.
+  /// Unbroken pieces of ground, from left to right; upright steps and free ends are segments of no width.
   const std::vector<Polygon>& grounds() const { return grounds_; }
 
  private:
@@ -102,6 +113,8 @@ class Section {
   std::vector<WaterPiece> water_;
   double water_unit_weight_;
   std::vector<GroundLoad> loads_;
+  double horizontal_;
+  FreeEnds free_;
   std::vector<Column> columns_;
   std::vector<Polygon> grounds_;
   double smallest_ = 0;  ///< lengths below this are none [m]

@@ -33,6 +33,13 @@ std::optional<SoilStrength> strength_of(const SoilCase& soil) {
   return std::nullopt;
 }
 
+/// Nothing holds the soil on an upright line.
+bool is_free(const Case& scene, double x) {
+  const auto on_it = [x](const Point& p) { return std::abs(p.x() - x) < 1e-9 * (1 + std::abs(x)); };
+  return std::ranges::none_of(scene.boundaries,
+                              [&](const BoundaryCase& b) { return on_it(b.from) && on_it(b.to); });
+}
+
 }  // namespace
 
 Section section_of(const Case& scene) {
@@ -57,7 +64,8 @@ Section section_of(const Case& scene) {
     loads.push_back({load.from, load.to, traction.traction(load.from, normal, scene.time.end),
                      traction.traction(load.to, normal, scene.time.end)});
   }
-  return {std::move(soils), std::move(water), scene.water.unit_weight, std::move(loads)};
+  return {std::move(soils), std::move(water),         scene.water.unit_weight,
+          std::move(loads), scene.loading.horizontal, {is_free(scene, left), is_free(scene, right)}};
 }
 
 }  // namespace porosph::limit_equilibrium

@@ -11,7 +11,7 @@ using Column = Section::Column;
 
 void add_force(const Point& at, const Point& force, Slice& slice) {
   slice.push += force.x(), slice.press -= force.y();
-  slice.top_torque += at.x() * force.y() - at.y() * force.x();
+  slice.torque += at.x() * force.y() - at.y() * force.x();
 }
 
 /// What the water does that presses on a straight piece of ground from a to b, soil below or to the right of
@@ -95,20 +95,22 @@ class Cutter {
     if (along.x() <= 0) return;
     const int soil = soil_at(column, base);
     if (soil == Section::nothing) return;
+    const Section::Pillar pillar = section_.pillar_above(column, base.x(), base.y());
     Slice slice{.base = base,
                 .width = along.x(),
                 .length = length,
                 .sine = along.y() / length,
                 .cosine = along.x() / length,
-                .weight = along.x() * section_.weight_above(column, base.x(), base.y()),
+                .weight = along.x() * pillar.weight,
                 .push = 0,
                 .press = 0,
-                .top_torque = 0,
+                .torque = 0,
                 .pore_pressure = section_.pore_pressure(column, base.x(), base.y()),
                 .strength = section_.soils()[static_cast<std::size_t>(soil)].strength->at(base.y())};
     const Point left{a.x(), column.ground(a.x())}, right{b.x(), column.ground(b.x())};
     add_water(section_, column, left, right, slice);
     add_loads(section_, left, right, slice);
+    add_force({base.x(), pillar.centre}, {section_.horizontal() * slice.weight, 0}, slice);
     slices_.push_back(slice);
   }
 

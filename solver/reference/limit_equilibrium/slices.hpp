@@ -11,14 +11,15 @@ namespace porosph::limit_equilibrium {
 /// left. x increases.
 using SlipSurface = std::vector<Point>;
 
-/// A slice, its forces per metre of thickness. Water and loads on its top press with (push, -press) [N/m].
+/// A slice, its forces per metre of thickness. Water and loads on its top, and what accelerates it sideways,
+/// press with (push, -press) [N/m].
 struct Slice {
   Point base;            ///< middle of its base [m]
   double width, length;  ///< of the base, horizontally and along it [m]
   double sine, cosine;   ///< of the base's slope, positive where it rises to the right
   double weight;         ///< [N/m]
-  double push, press;    ///< by what is on its top, to the right and downwards [N/m]
-  double top_torque;     ///< of that about (0, 0), counter-clockwise [N]
+  double push, press;    ///< beside its weight, to the right and downwards [N/m]
+  double torque;         ///< of that about (0, 0), counter-clockwise [N]
   double pore_pressure;  ///< u at the middle of the base [Pa]
   Strength strength;     ///< there
 };

@@ -102,6 +102,23 @@ void ZeroEnergySpring::add_softening(const ReferenceConfiguration& r, const Part
   }
 }
 
+void ZeroEnergySpring::slip_by_half(const ReferenceConfiguration& r, std::span<const double> yields) {
+  const auto n = static_cast<std::int32_t>(r.particles());
+#pragma omp parallel for schedule(static)
+  for (std::int32_t a = 0; a < n; ++a) {
+    if (yields[a] == 0) continue;
+    const Strained own = of_points_[a];
+    Vec2 pull = Vec2::Zero();
+    double all = 0;
+    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
+      const Strained& other = of_points_[b];
+      pull += 2 * g.w * (other.motion - own.motion) - (own.gradient + other.gradient) * Vec2(g.x, g.y);
+      all += 2 * g.w;
+    });
+    slip_[a] -= 0.5 / all * pull;
+  }
+}
+
 void ZeroEnergySpring::visit(StateArchive& state, std::size_t particles) {
   bool slips = !slip_.empty();
   state.value("spring_slips", slips);

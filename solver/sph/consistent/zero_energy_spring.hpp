@@ -73,6 +73,11 @@ class ZeroEnergySpring {
     std::size_t first;  ///< in excess_, up to that of the next
   };
   void find_unequal_pairs(const ReferenceConfiguration& reference, const Particles& particles);
+  static Strained mirrored(const ReferenceConfiguration& reference, std::size_t ghost, const Strained& root) {
+    return {reference.ghosts.from_root<Mirrors::motion>(ghost, root.motion),
+            reference.ghosts.flux_from_root(ghost, root.gradient)};
+  }
+  void slip_by_half(const ReferenceConfiguration& reference, std::span<const double> yields);
   void add_softening(const ReferenceConfiguration& reference, const Particles& particles, double viscosity,
                      std::span<Vec2> accelerations) const;
 
@@ -83,7 +88,8 @@ class ZeroEnergySpring {
   std::vector<Strained> strained_;  ///< of each in stiffer_
   std::vector<Softened> softened_;  ///< and one past the last
   std::vector<Excess> excess_;
-  std::vector<Vec2> slip_;  ///< p of each particle [m]; empty where none has yielded
+  std::vector<Strained> of_points_;  ///< of particles and ghosts, while the spring slips
+  std::vector<Vec2> slip_;           ///< p of each particle [m]; empty where none has yielded
 };
 
 /// The outline cuts cells: cells of unequal size do not close the sums of their gradients.
@@ -92,33 +98,14 @@ bool cells_are_cut(const Particles& at_start);
 template <class OwnStrain>
 void ZeroEnergySpring::slip(const ReferenceConfiguration& r, const Particles& p,
                             std::span<const double> yields, OwnStrain&& own_strain) {
-  constexpr double share = 0.5;
   if (std::ranges::all_of(yields, [](double y) { return y == 0; })) return;
   const auto n = static_cast<std::int32_t>(r.particles());
   slip_.resize(n, Vec2::Zero());
-  std::vector<Vec2> change(n, Vec2::Zero());
+  of_points_.resize(r.points.size());
 #pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    if (yields[a] == 0) continue;
-    const Vec2 own = stretch(a, r, p);
-    const Mat2 own_gradient = own_strain(a);
-    Vec2 pull = Vec2::Zero();
-    double all = 0;
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const std::int32_t root = b < n ? b : r.ghosts.root(b - n);
-      Vec2 other = stretch(root, r, p);
-      Mat2 other_gradient = own_strain(root);
-      if (b >= n) {
-        other = r.ghosts.from_root<Mirrors::motion>(b - n, other);
-        other_gradient = r.ghosts.flux_from_root(b - n, other_gradient);
-      }
-      pull += 2 * g.w * (other - own) - (own_gradient + other_gradient) * Vec2(g.x, g.y);
-      all += 2 * g.w;
-    });
-    change[a] = share / all * pull;
-  }
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) slip_[a] -= change[a];
+  for (std::int32_t a = 0; a < n; ++a) of_points_[a] = {stretch(a, r, p), own_strain(a)};
+  r.ghosts.for_each([&](std::size_t g) { of_points_[n + g] = mirrored(r, g, of_points_[r.ghosts.root(g)]); });
+  slip_by_half(r, yields);
 }
 
 template <class OwnStrain>
@@ -129,9 +116,8 @@ void ZeroEnergySpring::soften_pairs(const ReferenceConfiguration& r, const Parti
     const auto [particle, ghost] = stiffer_[k];
     const Vec2 motion = stretch(particle, r, p);
     const Mat2 gradient = own_strain(particle);
-    strained_[k] = ghost < 0 ? Strained{motion, gradient}
-                             : Strained{r.ghosts.from_root<Mirrors::motion>(ghost, motion),
-                                        r.ghosts.flux_from_root(ghost, gradient)};
+    const Strained own{motion, gradient};
+    strained_[k] = ghost < 0 ? own : mirrored(r, ghost, own);
   }
   add_softening(r, p, viscosity, accelerations);
 }

@@ -48,3 +48,11 @@ TEST_CASE("the keys of a case are those that may be set") {
   }
   CHECK(found == 6);
 }
+
+TEST_CASE("keys have their units, whatever tables of a list are called") {
+  CHECK(unit_of_key("water.level") == "m");
+  CHECK(unit_of_key("soil.clay.cohesion") == "Pa");
+  CHECK(unit_of_key("soil.2.friction_angle") == "degrees");
+  CHECK(unit_of_key("formulation.zero_energy_control") == "-");
+  CHECK(unit_of_key("soil.clay.no_such_key") == "-");
+}

@@ -72,3 +72,21 @@ TEST_CASE("a rigid rotation turns the stress and nothing else", "[soil]") {
   CHECK((now.in_plane() - turn * old.in_plane() * turn.transpose()).norm() < 1e-9);
   CHECK(now.zz == old.zz);
 }
+
+// Dienes (1979): shear stress G sin(gamma) and normal stresses +-G (1 - cos(gamma)) by Jaumann's rate. What a
+// step adds is not turned by half of the step's rotation, so that the law is of first order here.
+TEST_CASE("simple shear by several hundred percent has Dienes' stress", "[soil]") {
+  constexpr double shear = 4;
+  const double g = soil.shear_modulus, along = g * (1 - std::cos(shear)), across = g * std::sin(shear);
+  const Mat2 gradient = (Mat2() << 0, shear, 0, 0).finished(),
+             exact = (Mat2() << along, across, across, -along).finished();
+  const auto sheared_in = [&](int steps) {
+    Stress now{0, 0, 0, 0};
+    for (int k = 0; k < steps; ++k) now = soil.step(now, Gradient(gradient), 1.0 / steps, none);
+    CHECK(now.zz == Approx(0).margin(1e-9 * g));
+    return now.in_plane();
+  };
+  const Mat2 coarse = sheared_in(200), fine = sheared_in(400);
+  CHECK((fine - exact).norm() < 0.51 * (coarse - exact).norm());
+  CHECK((2 * fine - coarse - exact).norm() < 1e-3 * g);
+}

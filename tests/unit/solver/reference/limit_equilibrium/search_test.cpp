@@ -19,8 +19,10 @@ SectionSoil soil(Polygon outline, double cohesion, double friction, double weigh
   return {{std::move(outline)}, weight, weight, SoilStrength{cohesion, tangent(friction)}};
 }
 
-CriticalSurfaces surfaces(std::vector<SectionSoil> soils, std::vector<WaterPiece> water = {}) {
-  const auto found = find_critical_surfaces(Section(std::move(soils), std::move(water), water_weight));
+CriticalSurfaces surfaces(std::vector<SectionSoil> soils, std::vector<WaterPiece> water = {},
+                          double horizontal = 0) {
+  const auto found =
+      find_critical_surfaces(Section(std::move(soils), std::move(water), water_weight, {}, horizontal));
   REQUIRE(found);
   return *found;
 }
@@ -50,22 +52,29 @@ TEST_CASE("limit equilibrium finds the referees' factors of the ACADS slopes", "
     CHECK(found.spencer->factor == Approx(1.00).margin(0.02));
     CHECK_FALSE(found.general);
   }
+  const double weight = 19.5e3;
+  const std::vector<SectionSoil> layers = {
+      soil({{50, 29}, {54, 31}, {70, 31}, {70, 35}, {50, 35}, {30, 25}, {40, 27}}, 0, 38, weight),
+      soil({{40, 27}, {52, 24}, {70, 24}, {70, 31}, {54, 31}, {50, 29}}, 5.3e3, 23, weight),
+      soil({{20, 20}, {70, 20}, {70, 24}, {52, 24}, {40, 27}, {30, 25}, {20, 25}}, 7.2e3, 20, weight)};
   SECTION("1(c), three soils: 1.39") {
-    const double weight = 19.5e3;
-    const auto found = surfaces(
-        {soil({{50, 29}, {54, 31}, {70, 31}, {70, 35}, {50, 35}, {30, 25}, {40, 27}}, 0, 38, weight),
-         soil({{40, 27}, {52, 24}, {70, 24}, {70, 31}, {54, 31}, {50, 29}}, 5.3e3, 23, weight),
-         soil({{20, 20}, {70, 20}, {70, 24}, {52, 24}, {40, 27}, {30, 25}, {20, 25}}, 7.2e3, 20, weight)});
+    const auto found = surfaces(layers);
     CHECK(found.bishop.factor == Approx(1.39).margin(0.02));
     CHECK(found.spencer->factor == Approx(1.39).margin(0.02));
     CHECK(found.general->factor <= found.spencer->factor);
   }
+  SECTION("1(d), the same in an earthquake: 1.00") {
+    const auto found = surfaces(layers, {}, -0.15);
+    CHECK(found.bishop.factor == Approx(1.00).margin(0.02));
+    CHECK(found.spencer->factor == Approx(1.00).margin(0.02));
+    CHECK(surfaces(layers, {}, 0.15).bishop.factor > 1.5);
+  }
   SECTION("3(a), a weak seam, which no circle follows: 1.24 to 1.27") {
-    const double weight = 18.84e3;
+    const double unit = 18.84e3;
     const auto found = surfaces(
-        {soil({{20, 20}, {84, 20}, {84, 26.5}, {20, 26.5}}, 28.5e3, 20, weight),
-         soil({{20, 26.5}, {84, 26.5}, {84, 27}, {20, 27}}, 0, 10, weight),
-         soil({{20, 27}, {84, 27}, {84, 40}, {67.5, 40}, {43, 27.75}, {20, 27.75}}, 28.5e3, 20, weight)});
+        {soil({{20, 20}, {84, 20}, {84, 26.5}, {20, 26.5}}, 28.5e3, 20, unit),
+         soil({{20, 26.5}, {84, 26.5}, {84, 27}, {20, 27}}, 0, 10, unit),
+         soil({{20, 27}, {84, 27}, {84, 40}, {67.5, 40}, {43, 27.75}, {20, 27.75}}, 28.5e3, 20, unit)});
     CHECK(found.general->factor == Approx(1.24).margin(0.02));
     CHECK(found.bishop.factor > 1.5);
   }
@@ -128,11 +137,24 @@ TEST_CASE("an upright cut bears 3.83 c / gamma of soil, under water of buoyant s
   CHECK(wet.spencer->factor == Approx(wet.bishop.factor).epsilon(1e-3));
 }
 
-// (c + (gamma z cos^2 b - u) tan phi) / (gamma z sin b cos b), z the depth of rock under a long slope.
+TEST_CASE("an upright cut at the end of a section is as one in its midst", "[limit_equilibrium]") {
+  const bool right = GENERATE(true, false);
+  CAPTURE(right);
+  Polygon box{{0, 0}, {20, 0}, {20, 10}, {0, 10}};
+  if (!right) box = mirrored(box);
+  const SectionSoil clay = soil(box, 66666.67, 0);
+  const Section open({clay}, {}, water_weight, {}, 0, {!right, right});
+  CHECK(find_critical_surfaces(open)->bishop.factor == Approx(3.83 / 3).epsilon(0.002));
+  CHECK_FALSE(find_critical_surfaces(Section({clay}, {}, water_weight)));
+}
+
+// (c + (gamma z cos^2 b - u) tan phi) / (gamma z sin b cos b), z the depth of rock under a long slope. What
+// pushes it down the slope adds k cos^2 b to what drives it and takes k sin b cos b from what presses it on.
 TEST_CASE("limit equilibrium finds the infinite slope's factor over rock", "[limit_equilibrium]") {
   const double degrees = GENERATE(15.0, 25.0), cohesion = GENERATE(0.0, 4e3), friction = 30, weight = 19e3;
   const double seepage = GENERATE(0.0, 1.0);  // whether water flows parallel to the slope, up to the ground
-  CAPTURE(degrees, cohesion, seepage);
+  const double pushed = GENERATE(0.0, 0.1);   // to the left, over g
+  CAPTURE(degrees, cohesion, seepage, pushed);
   const double depth = 2, length = 400, fall = length * tangent(degrees);
   const SectionSoil cover =
       soil({{0, -depth}, {0, 0}, {length, fall}, {length, fall - depth}}, cohesion, friction, weight);
@@ -141,12 +163,13 @@ TEST_CASE("limit equilibrium finds the infinite slope's factor over rock", "[lim
   rock.strength.reset();
   std::vector<WaterPiece> water;
   if (seepage > 0) water.push_back({{0, 0}, {length, fall}});
-  const auto found = surfaces({cover, rock}, water);
+  const auto found = surfaces({cover, rock}, water, -pushed);
   const double angle = degrees * std::numbers::pi / 180, sine = std::sin(angle), cosine = std::cos(angle);
   // Pore pressure of the section is hydrostatic below the line: gamma_w z, a little more than that of flow.
   const double pressure = seepage * water_weight * depth;
-  const double expected = (cohesion + (weight * depth * cosine * cosine - pressure) * tangent(friction)) /
-                          (weight * depth * sine * cosine);
+  const double pressing = weight * depth * cosine * (cosine - pushed * sine),
+               driving = weight * depth * cosine * (sine + pushed * cosine);
+  const double expected = (cohesion + (pressing - pressure) * tangent(friction)) / driving;
   if (seepage > 0 && cohesion == 0) return;  // without cohesion the skin slides first, whatever its depth
   REQUIRE(found.general);
   CHECK(found.general->factor == Approx(expected).epsilon(0.03));
