@@ -271,7 +271,8 @@ ON_THE_COMMAND_LINE = [
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
     ("a factor of safety without strength", "safety case.toml", {}),
     ("a factor of safety of level ground", "safety level.toml --method limit-equilibrium", {
-        "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')}),
+        "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
+        + "".join(f'[[boundary]]\nkind = "roller"\nfrom = [{x}, 0]\nto = [{x}, 2]\n' for x in (0, 4))}),
     ("a factor of safety of soil that keeps its water", "safety undrained.toml", {
         "undrained.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')
         + '[water]\nlevel = 3\nmode = "undrained"\n'}),
