@@ -96,7 +96,7 @@ std::string tell(const Summary::EnergyBudget& e) {
 Summary::WaterMotion motion_summary(const Simulation& s) {
   const double failed_at = s.failed_at() < never ? s.failed_at() : 0;
   const DynamicWater* water = s.water_in_motion();
-  if (water == nullptr) return {.failed_at = failed_at, .steps = s.moves()};
+  if (water == nullptr) return {.began = failed_at, .steps = s.moves()};
   return {failed_at,
           water->counts().steps,
           water->counts().krylov_iterations,

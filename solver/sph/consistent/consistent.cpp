@@ -185,7 +185,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
   const Particles& p = model_.particles;
-  if (!of_excess_) of_excess_.emplace(reference_, model_, false, flow_.active() ? &flow_.loose() : nullptr);
+  if (!of_excess_) of_excess_ = Fluxes::of_pressures(reference_);
   of_excess_->take_pressures_alone(reference_, p.fill, fluxes_, excess);
   ConsistentArrays arrays = arrays_;
   of_excess_->connect(arrays, reference_);
