@@ -197,7 +197,7 @@ void PlainDynamics::velocity_gradients(std::span<Mat2> out) {
   for (std::size_t a = 0; a < out.size(); ++a) out[a] = velocity_gradient(a);
 }
 
-void PlainDynamics::strain(double dt) {
+void PlainDynamics::strain(double dt, std::span<const double>) {
   fill_velocities();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < model_.particles.size(); ++a) {

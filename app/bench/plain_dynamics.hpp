@@ -22,7 +22,7 @@ class PlainDynamics final : public Dynamics {
   void prepare() override;
   void accelerations(std::span<Vec2> out) override;
   void velocity_gradients(std::span<Mat2> out) override;
-  void strain(double dt) override;
+  void strain(double dt, std::span<const double> volume_rates) override;
   /// Throws std::logic_error: a measurement is not saved.
   void visit(StateArchive& state) override;
 

@@ -30,8 +30,8 @@ class TimedDynamics final : public Dynamics {
     add(times_.accelerations, [&] { timed_->accelerations(out); });
   }
   void velocity_gradients(std::span<Mat2> out) override { timed_->velocity_gradients(out); }
-  void strain(double dt) override {
-    add(times_.strain, [&] { timed_->strain(dt); });
+  void strain(double dt, std::span<const double> volume_rates) override {
+    add(times_.strain, [&] { timed_->strain(dt, volume_rates); });
   }
   void visit(StateArchive& state) override {
     timed_->counts = counts;

@@ -18,7 +18,6 @@ namespace porosph {
 struct Model {
   Particles particles;
   std::vector<Soil> soils;
-  std::vector<std::int32_t> soil_ids;     ///< of each: its number in the case file
   StandingWater water;                    ///< outside the soil
   std::shared_ptr<PoreWater> pore_water;  ///< in it; copies of the model share it
   std::vector<LoadedSurface> loads;

@@ -84,7 +84,8 @@ AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
 
 void reduce_strength(Model& model, const Case& scene, double factor) {
   for (std::size_t i = 0; i < model.soils.size(); ++i) {
-    Soil changed(soil_law(scene.soils[i], model.spacing, factor), model.soils[i].flows());
+    Soil changed(soil_law(scene.soils[i], model.spacing, factor), model.soils[i].flows(),
+                 model.soils[i].id());
     changed.add_history(model.particles);
     model.soils[i] = std::move(changed);
   }

@@ -129,7 +129,7 @@ std::vector<Reader> readers_of_particles() {
       {particle_fields::soil_id.name,
        [](Simulation& s) {
          return scalars<std::int32_t>(particles(s),
-                                      [&](auto i) { return s.model().soil_ids[particles(s).soil[i]]; });
+                                      [&](auto i) { return s.model().soils[particles(s).soil[i]].id(); });
        }},
       {particle_fields::particle_id.name, [](Simulation& s) { return particles(s).id; }},
   };

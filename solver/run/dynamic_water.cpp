@@ -26,7 +26,7 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
   of_.storage = storage_of_water(scene, model.particles);
   for (auto* v : {&of_.gained, &of_.head, &of_.excess, &of_.water, &of_.held, &of_.change, &surface_.open,
                   &surface_.outlet, &work_.rate, &work_.inflow, &work_.right_side, &work_.pressure,
-                  &work_.spread, &work_.direction, &work_.answer, &work_.preconditioned})
+                  &work_.spread, &work_.search.direction, &work_.search.answer, &work_.search.preconditioned})
     v->assign(n, 0);
   for (auto* v : {&work_.velocity, &work_.push, &work_.present, &work_.change}) v->assign(n, Vec2::Zero());
 }
@@ -172,8 +172,8 @@ void DynamicWater::answer(std::span<const double> head) {
   if (stencils_.drains()) stencils_.slope().multiply(head, work_.inflow);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a)
-    work_.answer[a] = surface_.fixed[a]
-                          ? 0
+    work_.search.answer[a] =
+        surface_.fixed[a] ? 0
                           : of_.storage[a] * head[a] + dt * (work_.inflow[a] + surface_.outlet[a] * head[a]) +
                                 dt * gain * (work_.spread[a] + p.volume(a) * work_.rate[a]);
 }
@@ -196,7 +196,7 @@ bool DynamicWater::is_enough(double start) const {
 
 /// From the present one as a guess.
 void DynamicWater::precondition(double tolerance) {
-  const KrylovResult solved = conjugate_gradients(work_.matrix, work_.right_side, work_.preconditioned,
+  const KrylovResult solved = conjugate_gradients(work_.matrix, work_.right_side, work_.search.preconditioned,
                                                   tolerance, most_iterations, ToleranceOf::right_side);
   counts_.krylov_iterations += solved.iterations;
   if (!solved.converged) throw Lost{worst()};
@@ -206,16 +206,17 @@ void DynamicWater::precondition(double tolerance) {
 /// returns that of this one. What is left takes the right side's place.
 double DynamicWater::turn(double overlap) {
   const std::size_t n = of_.change.size();
-  const double along_last = overlap > 0 ? -dot(work_.preconditioned, work_.answer) / overlap : 0;
+  const double along_last =
+      overlap > 0 ? -dot(work_.search.preconditioned, work_.search.answer) / overlap : 0;
   for (std::size_t a = 0; a < n; ++a)
-    work_.direction[a] = work_.preconditioned[a] + along_last * work_.direction[a];
-  answer(work_.direction);
-  overlap = dot(work_.direction, work_.answer);
-  const double far = overlap > 0 ? dot(work_.direction, work_.right_side) / overlap : 0;
+    work_.search.direction[a] = work_.search.preconditioned[a] + along_last * work_.search.direction[a];
+  answer(work_.search.direction);
+  overlap = dot(work_.search.direction, work_.search.answer);
+  const double far = overlap > 0 ? dot(work_.search.direction, work_.right_side) / overlap : 0;
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) {
-    of_.change[a] += far * work_.direction[a];
-    work_.right_side[a] -= far * work_.answer[a];
+    of_.change[a] += far * work_.search.direction[a];
+    work_.right_side[a] -= far * work_.search.answer[a];
     work_.change[a] += far * work_.push[a];
   }
   ++counts_.turns;
@@ -226,7 +227,7 @@ double DynamicWater::turn(double overlap) {
 /// the preconditioner is itself solved to a tolerance.
 void DynamicWater::solve() {
   const double start = dot(work_.right_side, work_.right_side);
-  work_.preconditioned = of_.change;
+  work_.search.preconditioned = of_.change;
   std::ranges::fill(of_.change, 0.0);
   std::ranges::fill(work_.change, Vec2::Zero());
   if (start == 0) return;
@@ -235,7 +236,7 @@ void DynamicWater::solve() {
     if (turns == most_turns) throw Lost{worst()};
     precondition(turns == 0 ? krylov_tolerance : in_later_turns);
     overlap = turn(overlap);
-    std::ranges::fill(work_.preconditioned, 0.0);
+    std::ranges::fill(work_.search.preconditioned, 0.0);
   }
 }
 

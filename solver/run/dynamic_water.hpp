@@ -89,10 +89,12 @@ class DynamicWater {
   };
   struct Scratch {
     std::vector<double> rate, inflow, right_side, pressure, spread;
-    std::vector<double> direction, answer, preconditioned;
     std::vector<Vec2> velocity, push, present, change;
     SparseRows matrix;
     Step of_matrix;
+    struct {
+      std::vector<double> direction, answer, preconditioned;
+    } search;  ///< of the conjugate gradients
   };
   void measure_surface();
   void find_fixed();

@@ -17,7 +17,8 @@ Probe::Probe(const ProbeCase& probe, const Model& model, std::int32_t soil)
   particles_ = find_neighbours(here, p.position, 2 * model.smoothing_length).index;
   std::erase_if(particles_,
                 [&](std::int32_t b) { return !model.visibility.sees_from(start_ - model.origin, b, p); });
-  if (soil >= 0) std::erase_if(particles_, [&](std::int32_t b) { return model.soil_ids[p.soil[b]] != soil; });
+  if (soil >= 0)
+    std::erase_if(particles_, [&](std::int32_t b) { return model.soils[p.soil[b]].id() != soil; });
   if (particles_.empty())
     throw std::runtime_error(fmt::format("probe '{}' at ({:.12g}, {:.12g}) has no particle within {} m",
                                          name_, start_.x(), start_.y(), 2 * model.smoothing_length));

@@ -100,7 +100,7 @@ void Simulation::set_law(const std::string& soil, AnyLaw law) {
   const auto found = std::ranges::find(soils, soil, &SoilCase::name);
   if (found == soils.end()) throw std::invalid_argument(fmt::format("no soil is called '{}'", soil));
   Soil& old = model_.soils[found - soils.begin()];
-  Soil changed(std::move(law));
+  Soil changed(std::move(law), false, old.id());
   if (changed.constrained_modulus() > old.constrained_modulus() * (1 + 1e-12))
     throw std::invalid_argument(
         fmt::format("the law of soil '{}' has the modulus M = {:g} Pa, but the time step is for {:g} Pa",

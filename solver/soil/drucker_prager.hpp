@@ -94,9 +94,7 @@ struct DruckerPrager : Elasticity {
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {
-    const double shut = closing(q.opening, velocity_gradient.trace() * dt);
-    const Symmetric<Space> trial =
-        elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);
+    const auto [trial, shut] = closing_step(old, velocity_gradient, dt, q.opening);
     const Surface now = surface(q);
     const double mean = trial.mean(), root = root_j2(trial);
     const double excess = root + 3 * now.alpha * mean - now.k;
@@ -113,11 +111,6 @@ struct DruckerPrager : Elasticity {
     q.plastic_strain += (root - new_root) / (shear_modulus * std::numbers::sqrt3);
     return (trial * scale).plus_isotropic(new_mean - scale * mean);
   }
-  template <class Space>
-  double constrained_modulus(const Symmetric<Space>&, const History&) const {
-    return Elasticity::constrained_modulus();
-  }
-  using Elasticity::constrained_modulus;
 
  private:
   struct Surface {

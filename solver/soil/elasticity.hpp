@@ -6,6 +6,12 @@
 
 namespace porosph {
 
+/// Part of the opening that the volume strain of a step closes.
+inline double closing(double opening, double volume_strain) {
+  const double compression = volume_strain < 0 ? -volume_strain : 0;
+  return opening < compression ? opening : compression;
+}
+
 struct Elasticity {
   double shear_modulus = 0;  ///< G [Pa]
   double bulk_modulus = 0;   ///< K [Pa]
@@ -16,6 +22,11 @@ struct Elasticity {
 
   /// M = K + 4 G / 3, modulus of one-dimensional compression [Pa].
   double constrained_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }
+  /// The same at any state.
+  template <class Space, class History>
+  double constrained_modulus(const Symmetric<Space>&, const History&) const {
+    return constrained_modulus();
+  }
 
   /// Effective stress rate of eq. (28) for the strain rate D, the symmetric part of the velocity gradient
   /// [Pa/s]; the rotation terms of eq. (30) come apart.
@@ -41,6 +52,21 @@ struct Elasticity {
   Symmetric<Space> elastic_step(const Symmetric<Space>& old, const GradientIn<Space>& velocity_gradient,
                                 double dt) const {
     return turned(old, velocity_gradient, dt) + elastic_rate(velocity_gradient) * dt;
+  }
+
+  /// An elastic step of soil in which an opening, as a volume strain, has to close before mean stress
+  /// returns: the stress, and how much of it the step has shut.
+  template <class Space>
+  struct ClosingStep {
+    Symmetric<Space> stress;
+    double shut;
+  };
+  template <class Space>
+  [[gnu::always_inline]] ClosingStep<Space> closing_step(const Symmetric<Space>& old,
+                                                         const GradientIn<Space>& velocity_gradient,
+                                                         double dt, double opening) const {
+    const double shut = closing(opening, velocity_gradient.trace() * dt);
+    return {elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut), shut};
   }
 
   /// Elastic energy per volume, s : s / 4 G + p^2 / 2 K [J/m3].

@@ -44,12 +44,6 @@ concept YieldingLaw = SoilLaw<Law, Space> &&
   { law.sin_friction(q) } -> std::same_as<double>;
 };
 
-/// Part of the opening that the volume strain of a step closes.
-inline double closing(double opening, double volume_strain) {
-  const double compression = volume_strain < 0 ? -volume_strain : 0;
-  return opening < compression ? opening : compression;
-}
-
 /// Of a law that remembers nothing.
 struct NoHistory {};
 

@@ -20,11 +20,6 @@ struct LinearElastic : Elasticity {
                         History&) const {
     return elastic_step(old, velocity_gradient, dt);
   }
-  template <class Space>
-  double constrained_modulus(const Symmetric<Space>&, const History&) const {
-    return Elasticity::constrained_modulus();
-  }
-  using Elasticity::constrained_modulus;
 };
 static_assert(SoilLaw<LinearElastic>);
 

@@ -183,20 +183,13 @@ struct MohrCoulomb : Elasticity {
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {
-    const double shut = closing(q.opening, velocity_gradient.trace() * dt);
-    const Symmetric<Space> trial =
-        elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);
+    const auto [trial, shut] = closing_step(old, velocity_gradient, dt, q.opening);
     const ReturnedInPlane r = returned_in_plane(trial.xx, trial.yy, trial.zz, trial.xy, surface(q), *this);
     q.plastic_strain += r.plastic_strain;
     q.opening += r.opening - shut;
     q.dilation += r.dilation;
     return {r.xx, r.yy, r.zz, r.xy};
   }
-  template <class Space>
-  double constrained_modulus(const Symmetric<Space>&, const History&) const {
-    return Elasticity::constrained_modulus();
-  }
-  using Elasticity::constrained_modulus;
 };
 static_assert(YieldingLaw<MohrCoulomb>);
 

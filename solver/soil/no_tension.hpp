@@ -24,18 +24,11 @@ struct NoTension : Elasticity {
   [[gnu::always_inline]] Symmetric<Space> step(const Symmetric<Space>& old,
                                                const GradientIn<Space>& velocity_gradient, double dt,
                                                History& q) const {
-    const double shut = closing(q.opening, velocity_gradient.trace() * dt);
-    const Symmetric<Space> trial =
-        elastic_step(old, velocity_gradient, dt).plus_isotropic(bulk_modulus * shut);
+    const auto [trial, shut] = closing_step(old, velocity_gradient, dt, q.opening);
     const double mean = trial.mean(), tension = mean > 0 ? mean : 0;
     q.opening += tension / bulk_modulus - shut;
     return trial * (q.opening > 0 ? 0.0 : 1.0);
   }
-  template <class Space>
-  double constrained_modulus(const Symmetric<Space>&, const History&) const {
-    return Elasticity::constrained_modulus();
-  }
-  using Elasticity::constrained_modulus;
 };
 static_assert(SoilLaw<NoTension>);
 

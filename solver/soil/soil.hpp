@@ -11,13 +11,16 @@ namespace porosph {
 
 class Soil {
  public:
-  /// `flows`: the soil may deform without end, which the motion equation takes care of.
-  explicit Soil(AnyLaw law, bool flows = false) : law_(std::move(law)), flows_(flows) {}
+  /// `flows`: the soil may deform without end, which the motion equation takes care of. `id`: its number in
+  /// the case file.
+  explicit Soil(AnyLaw law, bool flows = false, std::int32_t id = 0)
+      : law_(std::move(law)), flows_(flows), id_(id) {}
 
   const AnyLaw& law() const { return law_; }
   const Elasticity& elastic() const;
   bool may_yield() const;  ///< false: its step is always elastic
   bool flows() const { return flows_; }
+  std::int32_t id() const { return id_; }
   double shear_modulus() const { return elastic().shear_modulus; }                              ///< G [Pa]
   double bulk_modulus() const { return elastic().bulk_modulus; }                                ///< K [Pa]
   double constrained_modulus() const { return elastic().constrained_modulus(); }                ///< M [Pa]
@@ -51,6 +54,7 @@ class Soil {
  private:
   AnyLaw law_;
   bool flows_;
+  std::int32_t id_;
   std::vector<std::size_t> history_;
 };
 

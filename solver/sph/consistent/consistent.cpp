@@ -55,7 +55,7 @@ void ConsistentDynamics::prepare() {
   rebuild_reference();
   take_velocities();
   strain_all(0);
-  since_ = {};
+  since_.strain = since_.travel = 0;
   ++counts.refreshes;
 }
 
@@ -72,17 +72,15 @@ void ConsistentDynamics::rebuild_reference() {
   reference_ = make_reference(model_, formulation, surroundings_.find(model_));
   counts.searches = surroundings_.searches();
   counts.closures += reference_.closed() ? 1 : 0;
-  own_sides_ = find_own_sides(reference_, model_);
-  soils_.set_own_sides(own_sides_.place);
-  spring_ =
-      ZeroEnergySpring(formulation, model_, control_.rho_c, control_.cells_are_cut, reference_, own_sides_);
-  const bool asked = spring_.active() || !own_sides_.empty() || flow_.active();
-  yields_.assign(asked ? model_.particles.size() : 0, 0);
+  soils_.set_own_sides(reference_.own_sides.place);
+  control_.spring = ZeroEnergySpring(formulation, model_, control_.rho_c, control_.cells_are_cut, reference_);
+  const bool asked = control_.spring.active() || !reference_.own_sides.empty() || flow_.active();
+  since_.yields.assign(asked ? model_.particles.size() : 0, 0);
   if (flow_.active()) flow_.take(reference_, model_);
   if (friction_.active()) friction_.take(reference_, model_);
-  fluxes_ = Fluxes(reference_, model_, spring_.active(), flow_.active() ? &flow_.loose() : nullptr);
+  fluxes_ = Fluxes(reference_, model_, control_.spring.active(), flow_.active() ? &flow_.loose() : nullptr);
   if (flow_.active()) fluxes_.keep_piola_of(flow_.wall_work().particles_at_walls());
-  of_excess_.reset();
+  since_.of_excess.reset();
   connect_arrays();
 }
 
@@ -92,11 +90,11 @@ void ConsistentDynamics::connect_arrays() {
   arrays_.state.stress = &p.stress.data()->xx;
   arrays_.state.density = p.density.data();
   arrays_.state.interface_stress = p.interface_stress.data();
-  arrays_.state.yields = yields_.empty() ? nullptr : yields_.data();
-  own_sides_.connect(arrays_.state.own_sides);
-  arrays_.state.own_sides.rate = spring_.of_own_sides().data();
+  arrays_.state.yields = since_.yields.empty() ? nullptr : since_.yields.data();
+  reference_.own_sides.connect(arrays_.state.own_sides);
+  arrays_.state.own_sides.rate = control_.spring.of_own_sides().data();
   arrays_.control = {.viscosity = control_.viscosity,
-                     .rate = spring_.of_soils().data(),
+                     .rate = control_.spring.of_soils().data(),
                      .bulk_length = bulk_viscosity_of(formulation_, model_) * model_.smoothing_length};
   if (flow_.active()) {
     arrays_.diffusion = flow_.diffusion().view();
@@ -145,7 +143,7 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
-  fluxes_.prepare_forces(reference_, model_, spring_, flow_.active() ? &flow_.viscosity() : nullptr,
+  fluxes_.prepare_forces(reference_, model_, control_.spring, flow_.active() ? &flow_.viscosity() : nullptr,
                          friction_);
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
@@ -157,15 +155,15 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
     flow_.sample_work(reference_, model_.particles, fluxes_.piola());
     flow_.loose().walls().apply(model_, out);
   }
-  spring_.soften_pairs(
+  control_.spring.soften_pairs(
       reference_, model_.particles, control_.viscosity, [&](std::int32_t a) { return own_strain(a); }, out);
 }
 
 /// F - I of a particle's own side.
 Mat2 ConsistentDynamics::own_strain(std::size_t a) const {
   const Mat2 strain = fluxes_.deformation(a) - Mat2::Identity();
-  const std::int32_t place = own_sides_.empty() ? -1 : own_sides_.place[a];
-  return place < 0 ? strain : own_sides_.of(place, strain);
+  const std::int32_t place = reference_.own_sides.empty() ? -1 : reference_.own_sides.place[a];
+  return place < 0 ? strain : reference_.own_sides.of(place, strain);
 }
 
 void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
@@ -177,18 +175,18 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
     const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
     for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
       out[a] = matrix(rate[a - first]) * inverse(fluxes_.deformation(a));
-      if (!own_sides_.empty() && own_sides_.place[a] >= 0)
-        out[a] = own_sides_.rate_of(own_sides_.place[a], out[a]);
+      if (!reference_.own_sides.empty() && reference_.own_sides.place[a] >= 0)
+        out[a] = reference_.own_sides.rate_of(reference_.own_sides.place[a], out[a]);
     }
   }
 }
 
 void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
   const Particles& p = model_.particles;
-  if (!of_excess_) of_excess_ = Fluxes::of_pressures(reference_);
-  of_excess_->take_pressures_alone(reference_, p.fill, fluxes_, excess);
+  if (!since_.of_excess) since_.of_excess = Fluxes::of_pressures(reference_);
+  since_.of_excess->take_pressures_alone(reference_, p.fill, fluxes_, excess);
   ConsistentArrays arrays = arrays_;
-  of_excess_->connect(arrays, reference_);
+  since_.of_excess->connect(arrays, reference_);
   fluxes_.deformation().connect(arrays.state.deformation);
   arrays.motion.pressure = nullptr;
   arrays.flow.viscosity = nullptr;
@@ -233,8 +231,9 @@ void ConsistentDynamics::strain(double dt, std::span<const double> volume_rates)
   since_.strain = std::max(at_walls, largest.strain);
   if (friction_.active()) friction_.slide(model_, dt);
   since_.travel += dt * std::sqrt(largest.speed_squared);
-  if (spring_.active())
-    spring_.slip(reference_, model_.particles, yields_, [&](std::int32_t a) { return own_strain(a); });
+  if (control_.spring.active())
+    control_.spring.slip(reference_, model_.particles, since_.yields,
+                         [&](std::int32_t a) { return own_strain(a); });
 }
 
 void ConsistentDynamics::visit(StateArchive& state) {
@@ -262,7 +261,7 @@ void ConsistentDynamics::visit(StateArchive& state) {
   }
   surroundings_.visit(state, model_);
   fluxes_.visit(state, reference_);
-  spring_.visit(state, p.size());
+  control_.spring.visit(state, p.size());
   state.value("largest_strain", since_.strain);
   state.value("travel", since_.travel);
 }

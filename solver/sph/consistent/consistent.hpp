@@ -58,10 +58,13 @@ class ConsistentDynamics final : public Dynamics {
     double rho_c;      ///< of the zero-energy control [kg/(m2 s)]
     double viscosity;  ///< its mu [Pa s]
     bool cells_are_cut;
+    ZeroEnergySpring spring = {};
   };
   struct SinceReference {
-    double strain = 0;  ///< the largest |F - I|
-    double travel = 0;  ///< bound on any particle's path since neighbours were looked at [m]
+    double strain = 0;                ///< the largest |F - I|
+    double travel = 0;                ///< bound on any particle's path since neighbours were looked at [m]
+    std::vector<double> yields = {};  ///< of particles: as in SoilStateView; empty where nobody asks
+    std::optional<Fluxes> of_excess = {};  ///< those of an excess pressure alone, once they are asked for
   };
 
   Model& model_;
@@ -72,13 +75,9 @@ class ConsistentDynamics final : public Dynamics {
   WallFriction friction_;  ///< of no effect without a wall that has it
   Control control_;
   ReferenceConfiguration reference_;
-  OwnSides own_sides_;
-  ZeroEnergySpring spring_;
-  Fluxes fluxes_;                    ///< since the reference
-  std::optional<Fluxes> of_excess_;  ///< those of an excess pressure alone, once they are asked for
-  FlowingSoil flow_;                 ///< of no effect in elastic soil
-  std::vector<double> yields_;       ///< of particles: as in SoilStateView; empty where nobody asks
-  ConsistentArrays arrays_{};        ///< all these, as the kernels see them
+  Fluxes fluxes_;              ///< since the reference
+  FlowingSoil flow_;           ///< of no effect in elastic soil
+  ConsistentArrays arrays_{};  ///< all these, as the kernels see them
   SinceReference since_;
 };
 

@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "solver/space/parallel.hpp"
-#include "solver/sph/correction/kernel_correction.hpp"
+#include "solver/sph/consistent/control_forces.hpp"
 #include "solver/sph/kernels/pair_weights.hpp"
 
 namespace porosph {
 namespace {
-
-bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
-  const std::size_t n = r.particles();
-  return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).support().carries_shear();
-}
 
 /// The part of a particle's move that does not bring it too near to a wall.
 Vec2 short_of_walls(const Model& model, const Vec2& from, Vec2 move) {
@@ -25,16 +20,6 @@ Vec2 short_of_walls(const Model& model, const Vec2& from, Vec2 move) {
     if (towards > room) move += (towards - room) * wall.normal;
   }
   return move;
-}
-
-/// L of eq. (10) by the soil alone.
-Mat2 correction_by_soil(const ReferenceConfiguration& r, std::int32_t a) {
-  const auto n = static_cast<std::int32_t>(r.particles());
-  Mat2 sum = Mat2::Zero();
-  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    if (b < n) sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
-  });
-  return correction_matrix(sum);
 }
 
 }  // namespace
@@ -153,134 +138,24 @@ void FlowingSoil::even_out(Model& model, const ReferenceConfiguration& r) {
 }
 
 void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
-  const auto n = static_cast<std::int32_t>(r.particles());
   viscosity_.resize(r.points.size());
-  at_walls_.clear();
-  blind_.assign(n, 0);
-  correction_.resize(n);
-  std::vector<std::uint8_t> is_at_wall(n), has_ghosts(n);
-  std::vector<std::int32_t> neighbours(n);  // of the soil, and of its images that move as it does
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
-      const bool fixed = is_fixed_image(r, b);
-      if (b >= n) has_ghosts[a] = 1, is_at_wall[a] |= fixed;
-      if (!fixed) ++neighbours[a];
-    });
-    correction_[a] = has_ghosts[a] ? correction_by_soil(r, a) : r.correction[a];
-  }
-  loose_.take(model, neighbours, has_ghosts, has_flowed_);
-  for (std::int32_t a = 0; a < n; ++a)
-    blind_[a] = is_at_wall[a] && (neighbours[a] >= LooseParticles::fewest_neighbours || loose_.is(a));
+  rows_.find(r, model);
+  loose_.take(model, rows_.neighbours(), rows_.see_ghosts(), has_flowed_);
+  rows_.blind(loose_);
   wall_work_.take(r);
-  diffusion_.take(r, model, loose_, correction_);
-  deforms_.assign(n, 1);
-  for (std::int32_t a = 0; a < n; ++a)
-    if (loose_.is(a) || (has_flowed_ && is_at_wall[a])) deforms_[a] = 0;
-  for (std::int32_t a = 0; a < n; ++a)
-    if (is_at_wall[a] && model.soils[model.particles.soil[a]].flows()) at_walls_.push_back(a);
+  diffusion_.take(r, model, loose_, rows_.correction());
+  deforms_.assign(r.particles(), 1);
+  for (std::size_t a = 0; a < r.particles(); ++a)
+    if (loose_.is(a) || (has_flowed_ && rows_.see_fixed(a))) deforms_[a] = 0;
 }
 
-FlowingSoil::Gradients FlowingSoil::gradients(const ReferenceConfiguration& r, std::span<const Vec2> v,
-                                              std::int32_t a) const {
-  const auto n = static_cast<std::int32_t>(r.particles());
-  Mat2 soil = Mat2::Zero(), walls = Mat2::Zero();
-  r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    const Eigen::RowVector2d way(g.x, g.y);
-    if (b < n)
-      soil += (v[b] - v[a]) * way;
-    else
-      walls += (r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(v[r.ghosts.root(b - n)])) - v[a]) * way;
-  });
-  return {soil * correction_[a].transpose(), (soil + walls) * r.correction[a].transpose()};
-}
-
-void FlowingSoil::take_velocities(const ReferenceConfiguration& r, const Particles& p) {
-  gradient_.resize(at_walls_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < at_walls_.size(); ++k) gradient_[k] = gradients(r, p.velocity, at_walls_[k]);
-}
-
-double FlowingSoil::deform_at_walls(double dt, PlaneTensors& deformation) const {
-  double largest = 0;
-  if (!has_flowed_) return largest;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-  for (std::size_t k = 0; k < at_walls_.size(); ++k) {
-    const std::int32_t a = at_walls_[k];
-    if (loose_.is(a)) continue;
-    const Mat2 f = deformation[a] + dt * gradient_[k].own;
-    deformation.set(a, f);
-    largest = std::max(largest, (f - Mat2::Identity()).cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
-
-void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, PlaneTensors& flux,
-                                  std::span<Record> records) const {
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < at_walls_.size(); ++k) {
-    const std::int32_t a = at_walls_[k];
-    if (!blind_[a]) continue;
-    flux.set(a, flux[a] + viscosity_[a] * (gradient_[k].with_walls - gradient_[k].own));
-    if (!r.listed[a]) continue;
-    for (int i = 0; i < 4; ++i) records[a].q[i] = flux.component[i][a];
-  }
-}
-
-void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particles& p,
-                                  std::span<Vec2> accelerations) const {
-  const auto n = static_cast<std::int32_t>(r.particles());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < at_walls_.size(); ++k) {
-    const std::int32_t a = at_walls_[k];
-    // The kernels have summed this particle's half of each pair; the image's own half is left out there.
-    const Mat2& gradient = blind_[a] ? gradient_[k].own : gradient_[k].with_walls;
-    Vec2 half = Vec2::Zero();
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      if (b < n || !is_fixed_image(r, b)) return;
-      const Vec2 v = r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[r.ghosts.root(b - n)]));
-      half += g.w * (v - p.velocity[a]) - gradient * Vec2(g.x, g.y);
-    });
-    accelerations[a] += (blind_[a] ? -1 : 1) * viscosity_[a] / (p.fill[a] * r.density[a]) * half;
-  }
-}
-
-/// The control's part of what the kernels and leave_out_walls() sum.
 void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& p,
                               const PlaneTensors& piola) {
   wall_work_.sample(r, p, piola);
   sample_.acceleration.clear();
   if (!sample_.due()) return;
-  const auto n = static_cast<std::int32_t>(r.particles());
-  std::vector<Mat2> gradient(n);
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    const auto [own, with_walls] = gradients(r, p.velocity, a);
-    gradient[a] = blind_[a] ? own : with_walls;
-  }
   sample_.begin(p);
-#pragma omp parallel for schedule(static)
-  for (std::int32_t a = 0; a < n; ++a) {
-    Vec2 force = Vec2::Zero();
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-      const Vec2 way(g.x, g.y);
-      if (b < n) {
-        force += (viscosity_[a] + viscosity_[b]) * g.w * (p.velocity[b] - p.velocity[a]) -
-                 (viscosity_[a] * gradient[a] + viscosity_[b] * gradient[b]) * way;
-        return;
-      }
-      const std::int32_t root = r.ghosts.root(b - n);
-      const Vec2 v = r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(p.velocity[root]));
-      if (!is_fixed_image(r, b))
-        force +=
-            (viscosity_[a] + viscosity_[b]) * g.w * (v - p.velocity[a]) -
-            (viscosity_[a] * gradient[a] + viscosity_[b] * r.ghosts.flux_from_root(b - n, gradient[root])) *
-                way;
-      else if (!blind_[a])
-        force += 2 * viscosity_[a] * (g.w * (v - p.velocity[a]) - gradient[a] * way);
-    });
-    sample_.acceleration[a] = force / (p.fill[a] * r.density[a]);
-  }
+  control_forces(r, p, rows_, viscosity_, sample_.acceleration);
 }
 
 void FlowingSoil::count_work(const ReferenceConfiguration& r, const Particles& p, double dt) {

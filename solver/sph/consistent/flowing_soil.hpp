@@ -8,6 +8,7 @@
 #include "solver/sph/consistent/force_sample.hpp"
 #include "solver/sph/consistent/loose_particles.hpp"
 #include "solver/sph/consistent/reference.hpp"
+#include "solver/sph/consistent/rows_at_walls.hpp"
 #include "solver/sph/consistent/stress_diffusion.hpp"
 #include "solver/sph/consistent/wall_work.hpp"
 
@@ -33,24 +34,28 @@ class FlowingSoil {
   void take(const ReferenceConfiguration& reference, const Model& model);
 
   /// The velocities that what follows is of.
-  void take_velocities(const ReferenceConfiguration& reference, const Particles& particles);
-  /// F of particles at fixed walls, over a step dt [s], by the soil alone: soil that slides over images that
-  /// do not move with it is sheared as the law sees it, but its neighbours stay in place. Returns the largest
-  /// |F - I| there. In soil that has flowed only.
-  double deform_at_walls(double dt, PlaneTensors& deformation) const;
-
+  void take_velocities(const ReferenceConfiguration& reference, const Particles& particles) {
+    rows_.take_velocities(reference, particles);
+  }
+  /// F of particles at fixed walls over a step dt [s], in soil that has flowed only. Returns the largest
+  /// |F - I| there.
+  double deform_at_walls(double dt, PlaneTensors& deformation) const {
+    return has_flowed_ ? rows_.deform(dt, loose_, deformation) : 0;
+  }
   /// Diffuses the stress after a step.
   void diffuse_stress(Model& model, const ConsistentKernels& kernels, const ConsistentArrays& arrays) {
     work_.diffusion += diffusion_.apply(model, kernels, arrays);
   }
 
-  /// Next to fixed walls the control sees the soil alone: puts its own gradient into the `flux` of each such
-  /// particle, after a step ...
+  /// Next to fixed walls the control sees the soil alone: RowsAtWalls::leave_out().
   void leave_out_walls(const ReferenceConfiguration& reference, PlaneTensors& flux,
-                       std::span<Record> records) const;
-  /// ... and takes the walls' pairs out of the accelerations [m/s2].
+                       std::span<Record> records) const {
+    rows_.leave_out(reference, viscosity_, flux, records);
+  }
   void leave_out_walls(const ReferenceConfiguration& reference, const Particles& particles,
-                       std::span<Vec2> accelerations) const;
+                       std::span<Vec2> accelerations) const {
+    rows_.leave_out(reference, particles, viscosity_, accelerations);
+  }
 
   std::vector<double>& viscosity() { return viscosity_; }    ///< mu of the control [Pa s]; and ghost
   const double* deforms() const { return deforms_.data(); }  ///< as in FlowView
@@ -83,20 +88,12 @@ class FlowingSoil {
  private:
   void update_density(Model& model) const;
   void even_out(Model& model, const ReferenceConfiguration& reference);
-  struct Gradients {
-    Mat2 own, with_walls;  ///< by the soil alone, and by ghosts as well
-  };
-  Gradients gradients(const ReferenceConfiguration& reference, std::span<const Vec2> velocities,
-                      std::int32_t a) const;  ///< of the velocity of particle a [1/s]
 
   std::vector<double> rest_density_;  ///< of each particle without stress [kg/m3]; empty in elastic soil
   std::vector<double> viscosity_;
   StressDiffusion diffusion_;
-  std::vector<Mat2> correction_;        ///< of gradients that see the soil alone
-  std::vector<std::int32_t> at_walls_;  ///< particles with images in fixed walls
-  std::vector<Gradients> gradient_;     ///< of each of those
-  std::vector<std::uint8_t> blind_;     ///< to those
-  std::vector<double> deforms_;         ///< as in FlowView
+  RowsAtWalls rows_;
+  std::vector<double> deforms_;  ///< as in FlowView
   LooseParticles loose_;
   WallWork wall_work_;
   ForceSample sample_;  ///< of the control

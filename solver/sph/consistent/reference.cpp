@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "solver/sph/consistent/closed_gradients.hpp"
+#include "solver/sph/consistent/interface_gradients.hpp"
 #include "solver/sph/correction/kernel_correction.hpp"
 
 namespace porosph {
@@ -75,6 +76,7 @@ ReferenceConfiguration make_reference(const Model& model, const FormulationCase&
 
   r.listed.assign(r.points.size(), 0);
   for (const std::int32_t b : r.stencils.index) r.listed[b] = 1;
+  r.own_sides = find_own_sides(r, model);
   return r;
 }
 

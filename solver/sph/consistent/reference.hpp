@@ -6,6 +6,7 @@
 #include "solver/boundary/ghosts.hpp"
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
+#include "solver/sph/consistent/own_sides.hpp"
 #include "solver/sph/consistent/pair_stencils.hpp"
 #include "solver/sph/consistent/plane_tensors.hpp"
 #include "solver/sph/consistent/surroundings.hpp"
@@ -23,6 +24,7 @@ struct ReferenceConfiguration {
   PlaneTensors correction;           ///< L of eq. (10)
   PlaneVectors kappa;                ///< of closed gradients [m]; empty where they are closed without
   std::vector<std::uint8_t> listed;  ///< 1 where an own list names it
+  OwnSides own_sides;                ///< of the particles
 
   bool made() const { return !points.empty(); }
   bool closed() const { return !kappa.empty(); }

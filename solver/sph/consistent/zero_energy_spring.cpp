@@ -10,12 +10,12 @@ namespace {
 /// s, by default where something sets off motion that alternates: soils that meet, cut cells, the ends of
 /// footings, and more of it disorder and walls at corners other than upright ones with the soil between them.
 double strength(const FormulationCase& formulation, const Model& model, bool cut,
-                const ReferenceConfiguration& r, const OwnSides& sides) {
+                const ReferenceConfiguration& r) {
   constexpr double little = 0.1, usual = 0.2, more = 0.6;  // docs/theory.md says what they do
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
   const bool elastic = std::ranges::none_of(model.soils, &Soil::may_yield);
   if (r.closed() || !model.visibility.everywhere()) return elastic ? more : little;
-  if (!sides.empty()) return elastic ? usual : little;
+  if (!r.own_sides.empty()) return elastic ? usual : little;
   return cut || (model.is_pressed && elastic) ? little : 0;
 }
 
@@ -31,17 +31,17 @@ bool cells_are_cut(const Particles& p) {
 }
 
 ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Model& model, double rho_c,
-                                   bool cut, const ReferenceConfiguration& r, const OwnSides& sides)
-    : place_(sides.place) {
+                                   bool cut, const ReferenceConfiguration& r)
+    : place_(r.own_sides.place) {
   const Particles& p = model.particles;
-  const double s = strength(formulation, model, cut, r, sides);
+  const double s = strength(formulation, model, cut, r);
   active_ = s > 0 && formulation.zero_energy_control > 0;
   // mu = kappa rho c_p h
   const double rate_per_modulus = s / (rho_c * model.smoothing_length);
   for (const Soil& soil : model.soils)
     of_soil_.push_back(active_ ? rate_per_modulus * soil.constrained_modulus() : 0);
   const std::size_t n = r.particles();
-  for (const std::int32_t a : sides.particle) {
+  for (const std::int32_t a : r.own_sides.particle) {
     double least = of_soil_[p.soil[a]];
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
       const std::size_t root = static_cast<std::size_t>(b) < n ? b : r.ghosts.root(b - n);
@@ -49,7 +49,7 @@ ZeroEnergySpring::ZeroEnergySpring(const FormulationCase& formulation, const Mod
     });
     of_own_side_.push_back(least);
   }
-  if (active_ && !sides.empty()) find_unequal_pairs(r, p);
+  if (active_ && !r.own_sides.empty()) find_unequal_pairs(r, p);
 }
 
 /// With k of each particle, a pair's force on a is 2 w (k_b u_b - k_a u_a) - (k_a S_a + k_b S_b) G. With the

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "solver/particles/state.hpp"
-#include "solver/sph/consistent/interface_gradients.hpp"
 #include "solver/sph/consistent/reference.hpp"
 
 namespace porosph {
@@ -23,7 +22,7 @@ class ZeroEnergySpring {
   ZeroEnergySpring() = default;
   /// `rho_c` as in the control's viscosity, kappa rho c_p h [kg/(m2 s)].
   ZeroEnergySpring(const FormulationCase& formulation, const Model& model, double rho_c, bool cells_are_cut,
-                   const ReferenceConfiguration& reference, const OwnSides& own_sides);
+                   const ReferenceConfiguration& reference);
 
   bool active() const { return active_; }
   const std::vector<double>& of_soils() const { return of_soil_; }          ///< k away from other soils [1/s]

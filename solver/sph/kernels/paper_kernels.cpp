@@ -48,55 +48,58 @@ struct Geometry {
   }
 };
 
+/// A sum of something times g.
+struct TimesGradient {
+  Vector x{}, y{};
+
+  void add(const Vector& value, const Vector& gx, const Vector& gy) { x += value * gx, y += value * gy; }
+};
+
 template <bool rho_squared, bool viscous>
 struct Forces {
   const Arrays& c;
-  Vector x, y, vx{}, vy{}, rho{}, sound{};
+  struct {
+    Vector x, y, vx{}, vy{}, rho{}, sound{};
+  } own;
   double h = c.smoothing_length, least = 0.01 * h * h;
-  Vector xx_x{}, xx_y{}, xy_x{}, xy_y{}, yy_x{}, yy_y{}, fx{}, fy{}, px{}, py{}, rx{}, ry{};
+  TimesGradient xx, xy, yy, viscosity, pressure, density;
 
   template <class Own>
-  Forces(const Arrays& arrays, Own&& own)
-      : c(arrays), x(own(c.points.position[0])), y(own(c.points.position[1])) {
+  Forces(const Arrays& arrays, Own&& of)
+      : c(arrays), own{.x = of(c.points.position[0]), .y = of(c.points.position[1])} {
     if (!viscous) return;
-    vx = own(c.points.velocity[0]), vy = own(c.points.velocity[1]);
-    rho = own(c.points.density), sound = own(c.points.sound);
+    own.vx = of(c.points.velocity[0]), own.vy = of(c.points.velocity[1]);
+    own.rho = of(c.points.density), own.sound = of(c.points.sound);
   }
 
   template <class Of>
   void add(const double* weight, Of&& of) {
-    const Vector dx = of(c.points.position[0]) - x, dy = of(c.points.position[1]) - y, w = load(weight);
-    const Vector gx = w * dx, gy = w * dy;
-    const Vector xx = of(c.points.stress[0]), yy = of(c.points.stress[1]), xy = of(c.points.stress[2]);
-    xx_x += xx * gx, xx_y += xx * gy;
-    xy_x += xy * gx, xy_y += xy * gy;
-    yy_x += yy * gx, yy_y += yy * gy;
+    const Vector dx = of(c.points.position[0]) - own.x, dy = of(c.points.position[1]) - own.y;
+    const Vector w = load(weight), gx = w * dx, gy = w * dy;
+    xx.add(of(c.points.stress[0]), gx, gy);
+    xy.add(of(c.points.stress[2]), gx, gy);
+    yy.add(of(c.points.stress[1]), gx, gy);
     Vector its_rho;
     if (rho_squared || viscous) its_rho = of(c.points.density);
-    if (rho_squared) {
-      const Vector p = of(c.points.pressure);
-      px += p * gx, py += p * gy;
-      rx += its_rho * gx, ry += its_rho * gy;
-    }
+    if (rho_squared) pressure.add(of(c.points.pressure), gx, gy), density.add(its_rho, gx, gy);
     if (!viscous) return;
     // As ArtificialViscosity, with one division.
-    const Vector approach = (of(c.points.velocity[0]) - vx) * dx + (of(c.points.velocity[1]) - vy) * dy;
+    const Vector approach =
+        (of(c.points.velocity[0]) - own.vx) * dx + (of(c.points.velocity[1]) - own.vy) * dy;
     const Vector n = h * (approach < 0 ? approach : Vector{}), d = dx * dx + dy * dy + least;
     const Vector twice =
-        n * (2 * c.viscosity.beta * n - c.viscosity.alpha * (sound + of(c.points.sound)) * d);
-    const Vector force = its_rho * twice / ((rho + its_rho) * (d * d));
-    fx += force * gx, fy += force * gy;
+        n * (2 * c.viscosity.beta * n - c.viscosity.alpha * (own.sound + of(c.points.sound)) * d);
+    viscosity.add(its_rho * twice / ((own.rho + its_rho) * (d * d)), gx, gy);
   }
 
   template <class Write>
   void finish(Write&& write) const {
-    write(c.sum[Arrays::xx_x], xx_x), write(c.sum[Arrays::xx_y], xx_y);
-    write(c.sum[Arrays::xy_x], xy_x), write(c.sum[Arrays::xy_y], xy_y);
-    write(c.sum[Arrays::yy_x], yy_x), write(c.sum[Arrays::yy_y], yy_y);
-    if (viscous) write(c.sum[Arrays::viscous_x], fx), write(c.sum[Arrays::viscous_y], fy);
-    if (!rho_squared) return;
-    write(c.sum[Arrays::pressure_x], px), write(c.sum[Arrays::pressure_y], py);
-    write(c.sum[Arrays::density_x], rx), write(c.sum[Arrays::density_y], ry);
+    const auto put = [&](const TimesGradient& sum, int first) {
+      write(c.sum[first], sum.x), write(c.sum[first + 1], sum.y);
+    };
+    put(xx, Arrays::xx_x), put(xy, Arrays::xy_x), put(yy, Arrays::yy_x);
+    if (viscous) put(viscosity, Arrays::viscous_x);
+    if (rho_squared) put(pressure, Arrays::pressure_x), put(density, Arrays::density_x);
   }
 };
 

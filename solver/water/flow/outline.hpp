@@ -26,6 +26,11 @@ struct HydraulicOutline {
     const Wall& w = stretches[stretch];
     return w.from + along * (w.to - w.from).normalized();
   }
+  /// How far along a stretch a point lies beside it [m].
+  double along(int stretch, const Vec2& p) const {
+    const Wall& w = stretches[stretch];
+    return (p - w.from).dot((w.to - w.from).normalized());
+  }
   Vec2 middle(const HydraulicPatch& p) const {
     return p.stretch < 0 ? p.place : at(p.stretch, (p.from + p.to) / 2);
   }

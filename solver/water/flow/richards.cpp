@@ -47,37 +47,37 @@ Richards::Richards(DarcyFlow& flow, std::vector<Pores> pores, std::vector<int> f
       pores_(std::move(pores)),
       face_of_patch_(std::move(face_of_patch)),
       settings_(settings),
-      head_(std::move(start.head)),
+      of_{std::move(start.head), {}},
       faces_(std::move(start.faces)),
       next_step_(settings.first_step),
       through_faces_(faces, 0) {
-  for (std::size_t a = 0; a < head_.size(); ++a) {
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
     const double volume = flow.pairs().volume[a];
     pores_[a].free *= volume, pores_[a].elastic *= volume;
-    water_.push_back(water(a));
+    of_.water.push_back(water(a));
   }
-  start_water_ = deterministic_sum(head_.size(), [&](std::size_t a) { return water_[a]; });
-  work_.inflow.resize(head_.size()), work_.residual.resize(head_.size());
-  work_.change.resize(head_.size()), work_.storing.resize(head_.size());
+  of_.water_at_start = deterministic_sum(of_.head.size(), [&](std::size_t a) { return of_.water[a]; });
+  work_.inflow.resize(of_.head.size()), work_.residual.resize(of_.head.size());
+  work_.change.resize(of_.head.size()), work_.storing.resize(of_.head.size());
 }
 
 double Richards::water(std::size_t a) const {
-  return pores_[a].content(flow_.retention(a), head_[a] - flow_.height(a)).value;
+  return pores_[a].content(flow_.retention(a), of_.head[a] - flow_.height(a)).value;
 }
 
 Richards::Balance Richards::balance() const {
   Balance b = sums_;
-  b.gained = deterministic_sum(head_.size(), [&](std::size_t a) { return water(a); }) - start_water_;
+  b.gained = deterministic_sum(of_.head.size(), [&](std::size_t a) { return water(a); }) - of_.water_at_start;
   return b;
 }
 
 /// known + tau R(h) - W(h) and its slope; returns its root mean square over the pores [-].
 double Richards::assemble(std::span<const double> known, double tau, DarcyFlow::Slope kind) {
-  flow_.assemble(head_, faces_, kind, work_.slope, work_.inflow);
+  flow_.assemble(of_.head, faces_, kind, work_.slope, work_.inflow);
   work_.pinned = flow_.pinning_patches(faces_);
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < head_.size(); ++a) {
-    const WaterContent w = pores_[a].content(flow_.retention(a), head_[a] - flow_.height(a));
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+    const WaterContent w = pores_[a].content(flow_.retention(a), of_.head[a] - flow_.height(a));
     const bool free = work_.pinned[a] < 0;
     work_.storing[a] = (w.value - known[a]) / tau;
     work_.residual[a] = free ? known[a] + tau * work_.inflow[a] - w.value : 0;
@@ -85,14 +85,14 @@ double Richards::assemble(std::span<const double> known, double tau, DarcyFlow::
   }
   for (double& v : work_.slope.value) v *= tau;
   const double squares = deterministic_sum(
-      head_.size(), [&](std::size_t a) { return std::pow(work_.residual[a] / pores_[a].free, 2); });
-  return std::sqrt(squares / static_cast<double>(head_.size()));
+      of_.head.size(), [&](std::size_t a) { return std::pow(work_.residual[a] / pores_[a].free, 2); });
+  return std::sqrt(squares / static_cast<double>(of_.head.size()));
 }
 
 /// The change of heads that what is assembled asks for; false where there is none.
 bool Richards::find_change() {
   std::ranges::fill(work_.change, 0.0);
-  const int most = static_cast<int>(20 * std::sqrt(static_cast<double>(head_.size())) + 1000);
+  const int most = static_cast<int>(20 * std::sqrt(static_cast<double>(of_.head.size())) + 1000);
   const KrylovResult solved = bicgstab(work_.slope, work_.residual, work_.change, krylov_tolerance, most);
   ++counts_.newton_steps, counts_.krylov_iterations += solved.iterations;
   return std::isfinite(solved.residual);
@@ -101,7 +101,7 @@ bool Richards::find_change() {
 void Richards::change_heads(std::span<const double> before, double share) {
   for (std::size_t a = 0; a < before.size(); ++a) {
     const double y = flow_.height(a);
-    head_[a] = y + changed(flow_.retention(a), before[a] - y, share * work_.change[a]);
+    of_.head[a] = y + changed(flow_.retention(a), before[a] - y, share * work_.change[a]);
   }
 }
 
@@ -109,14 +109,14 @@ void Richards::change_heads(std::span<const double> before, double share) {
 /// they were, where it does not.
 bool Richards::improve(std::span<const double> known, double tau, double& size) {
   if (!find_change()) return false;
-  const std::vector<double> before = head_;
+  const std::vector<double> before = of_.head;
   double share = 1;
   for (int halvings = 0; halvings < most_halvings; ++halvings, share /= 2) {
     change_heads(before, share);
     const double next = assemble(known, tau, DarcyFlow::Slope::newton);
     if (next < size) return size = next, true;
   }
-  head_ = before;
+  of_.head = before;
   assemble(known, tau, DarcyFlow::Slope::newton);
   return false;
 }
@@ -125,7 +125,7 @@ bool Richards::improve(std::span<const double> known, double tau, double& size) 
 bool Richards::step_by_secant(std::span<const double> known, double tau, double& size) {
   assemble(known, tau, DarcyFlow::Slope::secant);
   if (!find_change()) return false;
-  change_heads(std::vector<double>(head_), 1);
+  change_heads(std::vector<double>(of_.head), 1);
   size = assemble(known, tau, DarcyFlow::Slope::newton);
   return true;
 }
@@ -133,14 +133,14 @@ bool Richards::step_by_secant(std::span<const double> known, double tau, double&
 bool Richards::solve(std::span<const double> known, double tau, double time) {
   faces_.set_time(time_ = time);
   FaceSwitch faces(flow_, faces_.size(), most_flips);
-  flow_.pin(head_, faces_);
+  flow_.pin(of_.head, faces_);
   double size = assemble(known, tau, DarcyFlow::Slope::newton);
   int secants = 0;
   for (int i = 0; i < most_newton && std::isfinite(size); ++i) {
     if (size > balanced && improve(known, tau, size)) continue;
     if (size > nearly_balanced && secants++ < most_secants && step_by_secant(known, tau, size)) continue;
-    if (!faces.update(head_, faces_, work_.storing)) return size <= nearly_balanced;
-    flow_.pin(head_, faces_);
+    if (!faces.update(of_.head, faces_, work_.storing)) return size <= nearly_balanced;
+    flow_.pin(of_.head, faces_);
     size = assemble(known, tau, DarcyFlow::Slope::newton);
   }
   return false;
@@ -150,14 +150,14 @@ bool Richards::solve(std::span<const double> known, double tau, double time) {
 /// the end where it returns true.
 bool Richards::try_step(double now, double step, std::vector<double>& first, std::vector<double>& through) {
   const double tau = gamma_of_sdirk * step;
-  std::vector<double> known = water_;
+  std::vector<double> known = of_.water;
   if (!solve(known, tau, now + tau)) return false;
   first = work_.inflow;
-  through = flow_.through_patches(head_, faces_);
+  through = flow_.through_patches(of_.head, faces_);
   for (double& q : through) q *= 1 - gamma_of_sdirk;
   for (std::size_t a = 0; a < known.size(); ++a) known[a] += (step - tau) * first[a];
   if (!solve(known, tau, now + step)) return false;
-  const std::vector<double> last = flow_.through_patches(head_, faces_);
+  const std::vector<double> last = flow_.through_patches(of_.head, faces_);
   for (std::size_t p = 0; p < last.size(); ++p) through[p] += gamma_of_sdirk * last[p];
   for (std::size_t a = 0; a < known.size(); ++a) {
     if (work_.pinned[a] < 0) {
@@ -171,7 +171,7 @@ bool Richards::try_step(double now, double step, std::vector<double>& first, std
 }
 
 void Richards::keep(double step, const std::vector<double>& through) {
-  water_ = work_.storing;
+  of_.water = work_.storing;
   std::ranges::fill(through_faces_, 0.0);
   for (std::size_t p = 0; p < through.size(); ++p) {
     (through[p] > 0 ? sums_.entered : sums_.left) += step * std::abs(through[p]);
@@ -181,7 +181,7 @@ void Richards::keep(double step, const std::vector<double>& through) {
 }
 
 double Richards::advance(double now, double until) {
-  const std::vector<double> head = head_;
+  const std::vector<double> head = of_.head;
   const FaceConditions faces = faces_;
   std::vector<double> first, through;
   double wanted = next_step_;
@@ -206,22 +206,22 @@ double Richards::advance(double now, double until) {
     }
     ++counts_.refused;
     wanted = step * (solved ? std::clamp(0.9 / std::sqrt(error), 0.1, 0.5) : 1.0 / 3);
-    head_ = head, faces_ = faces;
+    of_.head = head, faces_ = faces;
   }
 }
 
 /// What the embedded step of first order differs by, in saturation (root mean square) [-].
 double Richards::error_of(double step, std::span<const double> first) const {
   const double tau = gamma_of_sdirk * step;
-  const double squares = deterministic_sum(head_.size(), [&](std::size_t a) {
+  const double squares = deterministic_sum(of_.head.size(), [&](std::size_t a) {
     return work_.pinned[a] < 0 ? std::pow(tau * (work_.inflow[a] - first[a]) / pores_[a].free, 2) : 0;
   });
-  return std::sqrt(squares / static_cast<double>(head_.size()));
+  return std::sqrt(squares / static_cast<double>(of_.head.size()));
 }
 
 void Richards::visit(StateArchive& state) {
-  state.array("flow_head", head_);
-  state.array("flow_water", water_);
+  state.array("flow_head", of_.head);
+  state.array("flow_water", of_.water);
   std::vector<std::int32_t> states;
   for (const PatchState s : faces_.states()) states.push_back(static_cast<std::int32_t>(s));
   state.array("flow_patches", states);
@@ -230,7 +230,7 @@ void Richards::visit(StateArchive& state) {
   state.array("flow_through_faces", through_faces_);
   state.value("flow_time", time_);
   if (state.restoring()) faces_.set_time(time_);
-  state.value("flow_start_water", start_water_);
+  state.value("flow_start_water", of_.water_at_start);
   state.value("flow_next_step", next_step_);
   state.value("flow_entered", sums_.entered);
   state.value("flow_left", sums_.left);

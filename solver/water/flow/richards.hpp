@@ -65,7 +65,7 @@ class Richards {
   /// NotConverged.
   double advance(double now, double until);
 
-  std::span<const double> head() const { return head_; }
+  std::span<const double> head() const { return of_.head; }
   const FaceConditions& faces() const { return faces_; }
   const Counts& counts() const { return counts_; }
 
@@ -96,13 +96,18 @@ class Richards {
   double error_of(double step, std::span<const double> first) const;
   double water(std::size_t a) const;
 
+  /// Of the particles.
+  struct Amounts {
+    std::vector<double> head, water;  ///< [m], W [m2]
+    double water_at_start = 0;        ///< of all [m2]
+  };
   DarcyFlow& flow_;
   std::vector<Pores> pores_;  ///< of each particle, times its volume [m2, m]
   std::vector<int> face_of_patch_;
   Settings settings_;
-  std::vector<double> head_, water_;  ///< [m], [m2]
+  Amounts of_;
   FaceConditions faces_;
-  double start_water_ = 0, next_step_, time_ = 0;  ///< [m2]; [s]; [s] that the faces are of
+  double next_step_, time_ = 0;  ///< [s]; [s] that the faces are of
   Balance sums_;
   std::vector<double> through_faces_;
   Counts counts_;

@@ -143,7 +143,9 @@ TEST_CASE("fill in two layers: each settles by what is placed on it and under it
     if (p.start[i].y() < 8) CHECK(p.stress[i].yy == Approx(-gamma * (11 - p.start[i].y())).epsilon(0.01));
   }
   CHECK(p.id == q.id);
-  CHECK(end->model().soil_ids == std::vector<std::int32_t>{0, 1, 2});
+  std::vector<std::int32_t> ids;
+  for (const Soil& soil : end->model().soils) ids.push_back(soil.id());
+  CHECK(ids == std::vector<std::int32_t>{0, 1, 2});
 }
 
 TEST_CASE("what is excavated is gone, and the rest rises by what it carried") {

@@ -76,8 +76,7 @@ TEST_CASE("a gradient that bends where level soils meet is exact on both sides",
 TEST_CASE("own sides leave soils of one stiffness alone", "[interface]") {
   const Case scene = two_soils(0, 1, 0.3, 0.3);
   const Model model = build_model(scene);
-  CHECK(find_own_sides(make_reference(model, scene.formulation, Surroundings(model).find(model)), model)
-            .empty());
+  CHECK(make_reference(model, scene.formulation, Surroundings(model).find(model)).own_sides.empty());
 }
 
 TEST_CASE("a free body of two soils keeps its momentum and gains no energy", "[interface]") {
