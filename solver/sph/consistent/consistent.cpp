@@ -183,8 +183,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 
 void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
   const Particles& p = model_.particles;
-  if (!since_.of_excess)
-    since_.of_excess.emplace(reference_, model_, false, flow_.active() ? &flow_.loose() : nullptr);
+  if (!since_.of_excess) since_.of_excess = Fluxes::of_pressures(reference_);
   since_.of_excess->take_pressures_alone(reference_, p.fill, fluxes_, excess);
   ConsistentArrays arrays = arrays_;
   since_.of_excess->connect(arrays, reference_);

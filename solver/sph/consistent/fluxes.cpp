@@ -24,6 +24,16 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
   ghost_positions_.resize(r.ghosts.size());
 }
 
+Fluxes Fluxes::of_pressures(const ReferenceConfiguration& r) {
+  const std::size_t all = r.points.size();
+  Fluxes f;
+  f.flux_.resize(all), f.piola_.resize(all), f.records_.resize(all);
+  for (auto& v : f.velocity_) v.resize(all);  // the loops read them, times 0
+  f.mirrored_.assign(r.particles(), 1);
+  f.deformation_.assign(r.particles(), Mat2::Identity());
+  return f;
+}
+
 /// Writes the vector of_particle(a) of each particle, and of their ghosts what moves with it, into `field`
 /// and the records' velocity lanes.
 template <Mirrors how, class Of>

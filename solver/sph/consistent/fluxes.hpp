@@ -24,6 +24,9 @@ class Fluxes {
   Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control,
          const LooseParticles* loose);
 
+  /// For take_pressures_alone().
+  static Fluxes of_pressures(const ReferenceConfiguration& reference);
+
   /// Velocities of the particles, and the ghosts'.
   template <Mirrors how>
   void take_velocities(const ReferenceConfiguration& reference, std::span<const Vec2> velocities);

@@ -22,13 +22,14 @@ Mat2 correction_by_soil(const ReferenceConfiguration& r, std::int32_t a) {
 void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
   const auto n = static_cast<std::int32_t>(r.particles());
   correction_.resize(n);
-  neighbours_.assign(n, 0), sees_ghosts_.assign(n, 0), sees_fixed_.assign(n, 0);
+  neighbours_.assign(n, 0), in_soil_.assign(n, 0), sees_ghosts_.assign(n, 0), sees_fixed_.assign(n, 0);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
       const bool fixed = is_fixed_image(r, b);
       if (b >= n) sees_ghosts_[a] = 1, sees_fixed_[a] |= fixed;
       if (!fixed) ++neighbours_[a];
+      if (b < n) ++in_soil_[a];
     });
     correction_[a] = sees_ghosts_[a] ? correction_by_soil(r, a) : r.correction[a];
   }
@@ -40,7 +41,7 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
 void RowsAtWalls::blind(const LooseParticles& loose) {
   blind_.assign(neighbours_.size(), 0);
   for (std::size_t a = 0; a < blind_.size(); ++a)
-    blind_[a] = sees_fixed_[a] && (neighbours_[a] >= LooseParticles::fewest_neighbours || loose.is(a));
+    blind_[a] = sees_fixed_[a] && (in_soil_[a] >= LooseParticles::fewest_neighbours || loose.is(a));
 }
 
 RowsAtWalls::Gradients RowsAtWalls::gradients(const ReferenceConfiguration& r, std::span<const Vec2> v,

@@ -47,7 +47,7 @@ class RowsAtWalls {
 
  private:
   std::vector<Mat2> correction_;
-  std::vector<std::int32_t> neighbours_;
+  std::vector<std::int32_t> neighbours_, in_soil_;  ///< the second without images
   std::vector<std::uint8_t> sees_ghosts_, sees_fixed_, blind_;
   std::vector<std::int32_t> particles_;  ///< of flowing soil, that see fixed images
   std::vector<Gradients> gradient_;      ///< of each of those
