@@ -13,6 +13,7 @@
 #include "solver/run/kept_state.hpp"
 #include "solver/run/monitor/energy.hpp"
 #include "solver/space/parallel.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 
@@ -315,8 +316,8 @@ void Simulation::advance_in_motion() {
         Breakdown{.cause = Cause::inverted,
                   .time = time(),
                   .message = fmt::format("at {:.6g} s the pore pressure no longer follows the volume of "
-                                         "the soil around ({:.4g}, {:.4g}): it has yielded too far",
-                                         time(), place.x(), place.y())};
+                                         "the soil around {}: it has yielded too far",
+                                         time(), place_text(place))};
     return;
   }
   drift();

@@ -1,0 +1,13 @@
+// Places as messages tell them.
+#pragma once
+
+#include <string>
+
+#include "solver/space/tensor.hpp"
+
+namespace porosph {
+
+/// "(x, y)": six digits, and millimetres at least, so that places far from the origin can be told apart.
+std::string place_text(const Vec2& place);
+
+}  // namespace porosph
