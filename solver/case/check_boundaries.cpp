@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,27 +142,58 @@ bool carries(const BoundaryCase& b, const SoilCase& soil, const Case& c, double 
   return fault_along(alone, b, tolerance).empty();
 }
 
+// Whether soil of another body lies below any soil of this one.
+bool lands(const Case& c, const std::vector<std::size_t>& body, std::size_t number) {
+  const auto box = [](const SoilCase& soil) {
+    Eigen::AlignedBox2d around;
+    for (const Point& p : soil.polygon) around.extend(p);
+    return around;
+  };
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (std::size_t j = 0; j < body.size(); ++j) {
+      if (body[i] != number || body[j] == number) continue;
+      const Eigen::AlignedBox2d own = box(c.soils[i]), other = box(c.soils[j]);
+      const double common =
+          std::min(own.max().x(), other.max().x()) - std::max(own.min().x(), other.min().x());
+      if (common > c.particles.spacing && other.min().y() < own.min().y()) return true;
+    }
+  return false;
+}
+
+// Of each body, by its number.
+std::vector<bool> carried_bodies(const Case& c, const std::vector<std::size_t>& body, double tolerance) {
+  std::vector<bool> carried(body.size(), false);
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (const BoundaryCase& b : c.boundaries)
+      if (!carried[body[i]] && carries(b, c.soils[i], c, tolerance)) carried[body[i]] = true;
+  return carried;
+}
+
 std::vector<CaseIssue> unsupported(const Case& c, double tolerance) {
   std::vector<CaseIssue> issues;
   const std::vector<std::size_t> body = bodies(c, tolerance);
-  for (std::size_t first = 0; first < body.size(); ++first) {
-    if (body[first] != first) continue;
-    const auto is_carried = [&](const BoundaryCase& b) {
-      for (std::size_t i = 0; i < body.size(); ++i)
-        if (body[i] == first && carries(b, c.soils[i], c, tolerance)) return true;
-      return false;
-    };
-    if (!std::any_of(c.boundaries.begin(), c.boundaries.end(), is_carried))
+  const std::vector<bool> carried = carried_bodies(c, body, tolerance);
+  for (std::size_t first = 0; first < body.size(); ++first)
+    if (body[first] == first && !carried[first] && !lands(c, body, first))
       issues.push_back(
           {fmt::format("soil[{}]", first),
            fmt::format("soil '{}' falls: gravity is applied and its body has no boundary that carries it, a "
-                       "fixed one or a roller that is not upright",
+                       "fixed one or a roller that is not upright, and no soil below to land on",
                        c.soils[first].name)});
-  }
   return issues;
 }
 
 }  // namespace
+
+std::vector<bool> falling_soils(const Case& c) {
+  std::vector<bool> falls(c.soils.size(), false);
+  if (!c.loading.gravity_applied) return falls;
+  const double tolerance = 1e-3 * c.particles.spacing;
+  const std::vector<std::size_t> body = bodies(c, tolerance);
+  const std::vector<bool> carried = carried_bodies(c, body, tolerance);
+  for (std::size_t i = 0; i < falls.size(); ++i) falls[i] = !carried[body[i]] && lands(c, body, body[i]);
+  return falls;
+}
 
 bool lies_on_soil(const Case& c, const BoundaryCase& b) {
   return fault_along(c, b, 1e-3 * c.particles.spacing) != beside_no_soil;

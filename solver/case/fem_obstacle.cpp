@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "solver/case/case_file.hpp"
+#include "solver/case/check_boundaries.hpp"
 
 namespace porosph {
 
@@ -18,6 +21,7 @@ std::string fem_obstacle(const Case& scene) {
     if (soil.velocity != Point::Zero() || soil.angular_velocity != 0 || soil.bending_velocity != 0)
       return fmt::format("soil '{}' has an initial velocity", soil.name);
   }
+  if (std::ranges::count(falling_soils(scene), true) > 0) return "a body falls";
   for (const BoundaryCase& b : scene.boundaries)
     if (b.kind == BoundaryKind::friction)
       return "soil slides along a wall against friction, which is not linear";

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "solver/boundary/water_face.hpp"
+#include "solver/case/check_boundaries.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
@@ -79,11 +80,17 @@ void check_every_soil_has_particles(const Case& scene, const Particles& particle
                                            scene.soils[s].name, scene.particles.spacing));
 }
 
+/// Soil that falls begins without stress, and weighs on no other.
 void add_k0_stress(const Case& scene, Particles& particles) {
+  const std::vector<bool> falls = falling_soils(scene);
+  Case carried = scene;
+  for (std::size_t s = falls.size(); s-- > 0;)
+    if (falls[s]) carried.soils.erase(carried.soils.begin() + static_cast<std::ptrdiff_t>(s));
   for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (falls[particles.soil[i]]) continue;
     const double nu = scene.soils[particles.soil[i]].poissons_ratio;
     const double k0 = scene.loading.k0 >= 0 ? scene.loading.k0 : nu / (1 - nu);
-    particles.stress[i] = k0_stress(scene, particles.position[i], k0);
+    particles.stress[i] = k0_stress(carried, particles.position[i], k0);
   }
 }
 

@@ -37,10 +37,10 @@ PressureStabilisation stabilisation(const Case& scene, const Model& model) {
 
 }  // namespace
 
-Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics,
-                             std::span<const LoadedParticles> loads, std::span<Footing> footings, double dt)
+Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics, SurfaceForces& surface,
+                             double dt)
     : model_(model),
-      soil_(model, dynamics, loads, footings, dt),
+      soil_(model, dynamics, surface, dt),
       settings_(scene.water.coupling),
       unit_weight_(scene.water.unit_weight),
       drainage_(drainage(scene, model.particles)),

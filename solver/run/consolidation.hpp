@@ -29,10 +29,8 @@ class Consolidation {
     std::int64_t flow_steps = 0, pressure_solves = 0, krylov_iterations = 0, soil_sweeps = 0;
   };
 
-  /// `dt` of the soil's relaxation [s]. The particles must be at rest where they start. `loads` and
-  /// `footings` on the surface.
-  Consolidation(const Case& scene, Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
-                std::span<Footing> footings, double dt);
+  /// `dt` of the soil's relaxation [s]. The particles must be at rest where they start.
+  Consolidation(const Case& scene, Model& model, Dynamics& dynamics, SurfaceForces& surface, double dt);
 
   /// One flow step from the time `now`, not beyond `until` [s]; returns the time that it reached. Throws
   /// std::runtime_error where the soil does not come to rest: it has failed.

@@ -1,5 +1,7 @@
 #include "solver/run/relaxation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +30,12 @@ void Relaxation::measure(const Particles& p, std::span<const Vec2> before, std::
   const double kept = std::exp(-0.5 * damping * steps_between * dt);  // the last 1 / omega counts
   stiffness = stiffness * kept + now.stiffness, inertia = inertia * kept + now.inertia;
   if (stiffness > 0 && inertia > 0) damping = std::min(2 * std::sqrt(stiffness / inertia), 1 / dt);
+}
+
+void Relaxation::visit(StateArchive& state, std::string_view name) {
+  state.value(fmt::format("{}_stiffness", name), stiffness);
+  state.value(fmt::format("{}_inertia", name), inertia);
+  state.value(fmt::format("{}_damping", name), damping);
 }
 
 }  // namespace porosph

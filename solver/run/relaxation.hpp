@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "solver/particles/particles.hpp"
+#include "solver/particles/state.hpp"
 
 namespace porosph {
 
@@ -27,6 +29,8 @@ struct Relaxation {
   /// that softens as it moves, changes nothing.
   void measure(const Particles& particles, std::span<const Vec2> before, std::span<const Vec2> after,
                double dt);
+  /// Saves or restores them, under names that begin so.
+  void visit(StateArchive& state, std::string_view name);
 };
 
 }  // namespace porosph

@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/boundary/load.hpp"
-#include "solver/run/leapfrog.hpp"
+#include "solver/run/relaxed_step.hpp"
 #include "solver/space/parallel.hpp"
 
 namespace porosph {
 
-RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
-                         std::span<Footing> footings, double dt)
-    : model_(model),
-      dynamics_(dynamics),
-      loads_(loads),
-      footings_(footings),
-      dt_(dt),
-      excess_(model.particles.size(), 0) {
+RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, SurfaceForces& surface, double dt)
+    : model_(model), dynamics_(dynamics), surface_(surface), dt_(dt), excess_(model.particles.size(), 0) {
   const Particles& p = model.particles;
   for (std::size_t a = 0; a < p.size(); ++a) start_volume_.push_back(p.volume(a));
   accelerations_.resize(p.size());
-  Vec2 low = p.position.front(), high = low;
-  for (const Vec2& x : p.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  extent_ = (high - low).maxCoeff();
+  extent_ = extent_of(p);
   dynamics.carry_excess(excess_);
 }
 
@@ -47,21 +38,14 @@ void RestingSoil::relax(int sweeps, double time) {
   for (int k = 0; k <= sweeps; ++k) {
     prepare();
     dynamics_.accelerations(accelerations_);
-    add_loads(model_.loads, p, time, accelerations_);
-    add_surface_loads(loads_, p, time, accelerations_);
+    surface_.press(model_, time, accelerations_);
     if (!before_.empty()) relaxation_.measure(p, before_, accelerations_, dt_);
     before_.clear();
     if (k < sweeps && sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
     const Kick kick = full_kick(relaxation_.damping, dt_);
-    for (Footing& footing : footings_) footing.hold(p, kick, dt_, time, accelerations_);
+    surface_.hold(p, kick, dt_, time, accelerations_);
     if (k == sweeps) return;
-#pragma omp parallel for schedule(static)
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] = kick(p.velocity[a], accelerations_[a]);
-      p.position[a] += dt_ * p.velocity[a];
-    }
-    model_.pore_water->follow(model_.water, p, 0, p.size());
-    dynamics_.strain(dt_);
+    relaxed_step(model_, dynamics_, kick, dt_, accelerations_);
     ++sweeps_;
   }
 }
@@ -100,9 +84,7 @@ void RestingSoil::visit(StateArchive& state) {
   state.array("volume_at_start", start_volume_);
   state.array("accelerations_at_rest", accelerations_);
   state.value("soil_sweeps", sweeps_);
-  state.value("flow_relaxation_stiffness", relaxation_.stiffness);
-  state.value("flow_relaxation_inertia", relaxation_.inertia);
-  state.value("flow_relaxation_damping", relaxation_.damping);
+  relaxation_.visit(state, "flow_relaxation");
 }
 
 }  // namespace porosph

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
-#include "solver/run/footings.hpp"
 #include "solver/run/relaxation.hpp"
-#include "solver/run/surface_loads.hpp"
+#include "solver/run/surface_forces.hpp"
 #include "solver/sph/dynamics.hpp"
 
 namespace porosph {
@@ -17,8 +16,7 @@ namespace porosph {
 class RestingSoil {
  public:
   /// `dt` of the relaxation [s].
-  RestingSoil(Model& model, Dynamics& dynamics, std::span<const LoadedParticles> loads,
-              std::span<Footing> footings, double dt);
+  RestingSoil(Model& model, Dynamics& dynamics, SurfaceForces& surface, double dt);
 
   std::span<double> excess() { return excess_; }  ///< p_e of the particles [Pa]
   /// So many steps under the loads and footings of a time [s]; `accelerations` are then those that are left.
@@ -43,8 +41,7 @@ class RestingSoil {
 
   Model& model_;
   Dynamics& dynamics_;
-  std::span<const LoadedParticles> loads_;
-  std::span<Footing> footings_;
+  SurfaceForces& surface_;
   double dt_;
   double extent_;  ///< of the body [m]
   Relaxation relaxation_;

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/run/leapfrog.hpp"
+#include "solver/run/relaxed_step.hpp"
 
 namespace porosph {
 namespace {
 
 constexpr double most_crossings = 200;
 constexpr int steps_between_balances = 10;
-
-double extent(const Particles& p) {
-  Vec2 low = p.position.front(), high = low;
-  for (const Vec2& x : p.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  return (high - low).maxCoeff();
-}
 
 bool is_sound(const Particles& p, double fastest) {
   return std::ranges::all_of(p.velocity,
@@ -27,7 +21,7 @@ bool is_sound(const Particles& p, double fastest) {
 
 bool Settling::settle(Model& model, Dynamics& dynamics, const Task& task) {
   Particles& p = model.particles;
-  const double crossing = extent(p) / model.wave_speed;
+  const double crossing = extent_of(p) / model.wave_speed;
   const auto most = static_cast<std::int64_t>(std::ceil(most_crossings * crossing / dt));
   std::ranges::fill(p.velocity, Vec2::Zero());
   std::vector<Vec2> before;
@@ -48,23 +42,14 @@ bool Settling::settle(Model& model, Dynamics& dynamics, const Task& task) {
       }
     }
     if (k % Relaxation::steps_between == 0) before.assign(forces.begin(), forces.end());
-    const Kick kick = full_kick(relaxation.damping, dt);
-#pragma omp parallel for schedule(static)
-    for (std::size_t a = 0; a < p.size(); ++a) {
-      p.velocity[a] = kick(p.velocity[a], forces[a]);
-      p.position[a] += dt * p.velocity[a];
-    }
-    model.pore_water->follow(model.water, p, 0, p.size());
-    dynamics.strain(dt);
+    relaxed_step(model, dynamics, full_kick(relaxation.damping, dt), dt, forces);
   }
   return false;
 }
 
 void Settling::visit(StateArchive& state) {
   state.value("settling_sweeps", sweeps);
-  state.value("settling_stiffness", relaxation.stiffness);
-  state.value("settling_inertia", relaxation.inertia);
-  state.value("settling_damping", relaxation.damping);
+  relaxation.visit(state, "settling");
 }
 
 }  // namespace porosph

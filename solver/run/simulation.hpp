@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/run/clock.hpp"
 #include "solver/run/consolidation.hpp"
 #include "solver/run/dynamic_water.hpp"
-#include "solver/run/footings.hpp"
+#include "solver/run/good_states.hpp"
 #include "solver/run/hand_over.hpp"
-#include "solver/run/leapfrog.hpp"
-#include "solver/run/monitor/instability.hpp"
+#include "solver/run/monitor/breakdown_watch.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
 #include "solver/run/settling.hpp"
-#include "solver/run/surface_loads.hpp"
+#include "solver/run/surface_forces.hpp"
 #include "solver/sph/dynamics.hpp"
 #include "solver/water/transient_water.hpp"
 
@@ -51,34 +51,34 @@ class Simulation {
 
   std::int64_t step() const { return clock_.step; }
   std::int64_t last_step() const { return clock_.last_step; }  ///< the step that reaches the case's end time
-  double time() const { return time_of(clock_.step); }         ///< [s]
-  double time_of(std::int64_t step) const { return clock_.start + static_cast<double>(step) * clock_.dt; }
-  double start_time() const { return clock_.start; }  ///< 0, but in later stages [s]
-  double time_step() const { return clock_.dt; }      ///< that steps are counted by [s]
-  double step_length() const { return clock_.dt * static_cast<double>(clock_.ticks); }  ///< of the next [s]
+  double time() const { return clock_.now(); }                 ///< [s]
+  double time_of(std::int64_t step) const { return clock_.at(step); }
+  double start_time() const { return clock_.start; }           ///< 0, but in later stages [s]
+  double time_step() const { return clock_.dt; }               ///< that steps are counted by [s]
+  double step_length() const { return clock_.step_length(); }  ///< of the next [s]
   /// Steps so far in which the soil moved with its inertia.
   std::int64_t moves() const { return follows_flow() ? clock_.moves : clock_.step; }
   double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
-  const std::vector<Footing>& footings() const { return footings_; }
+  const std::vector<Footing>& footings() const { return surface_.footings; }
   const Dynamics& dynamics() const { return *dynamics_; }
-  const Consolidation* consolidation() const { return consolidation_.get(); }  ///< null unless coupled
-  const TransientWater* seepage() const { return seepage_.get(); }             ///< null unless transient
-  std::int64_t settling_sweeps() const { return settling_.sweeps; }            ///< of the soil in that flow
+  const Consolidation* consolidation() const { return flow_.coupled.get(); }  ///< null unless coupled
+  const TransientWater* seepage() const { return flow_.seepage.get(); }       ///< null unless transient
+  std::int64_t settling_sweeps() const { return flow_.settling.sweeps; }      ///< of the soil in that flow
   /// Null unless the soil moves with its inertia and pore pressures of its own.
-  const DynamicWater* water_in_motion() const { return in_motion_ ? moving_water_.get() : nullptr; }
+  const DynamicWater* water_in_motion() const { return motion_.now ? motion_.water.get() : nullptr; }
   /// Of water that has left coupled soil; nothing elsewhere [m2].
   std::optional<double> drained() const;
   /// Whether time is counted by a flow, whose steps are as long as it allows.
-  bool follows_flow() const { return consolidation_ || seepage_; }
+  bool follows_flow() const { return static_cast<bool>(flow_); }
   /// Whether the soil is at rest all the while in that flow: until it fails, where the case goes on from
   /// there.
-  bool rests_in_flow() const { return follows_flow() && !in_motion_; }
+  bool rests_in_flow() const { return follows_flow() && !motion_.now; }
   /// Whether a frame and a row are due now of soil that has failed and moves.
   bool motion_is_due() const;
-  double failed_at() const { return failed_at_; }  ///< when it did; never: it has not [s]
+  double failed_at() const { return motion_.failed_at; }  ///< when it did; never: it has not [s]
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -97,13 +97,13 @@ class Simulation {
   Energy energy();
 
   /// What went wrong, where, and what usually causes it; empty while all is well.
-  const std::optional<Breakdown>& instability() const { return instability_; }
+  const std::optional<Breakdown>& instability() const { return watch_.found(); }
   /// False where the state is no longer fit to be written: not finite, or faster than its own waves.
-  bool showable() const { return !runaway_; }
+  bool showable() const { return !watch_.ran_away(); }
   /// Looks for particles that have met or left the body (costs a neighbour search).
-  void look_for_breakdown();
+  void look_for_breakdown() { watch_.look(model_, time()); }
   /// Ends the simulation for a reason that the caller found.
-  void stop(Breakdown reason) { instability_ = std::move(reason); }
+  void stop(Breakdown reason) { watch_.stop(std::move(reason)); }
 
   /// Keeps a copy of the present state as a good one. The last two are kept, as the last may have been good
   /// only in appearance.
@@ -122,65 +122,60 @@ class Simulation {
   void drift();
   void couple();
   void time_by_flow();
+  bool follow_flow();
   void advance_flow();
+  void advance_seepage();
   void begin_motion();
   void choose_ticks();
+  std::int64_t next_due() const;
   std::int64_t motion_tick(double intervals) const;
   void end_after_motion();
   void advance_in_motion();
   void sum_forces();
   void show_excess();
-  void change_pressure();
-  void hold_footings();
-  void advance_seepage();
+  bool change_pressure();
+  void hold_footings(std::span<Vec2> accelerations);
   void settle();
   void take_accelerations_at_rest();
-  std::int64_t next_tick_due() const;
-  void name_breakdown(double time);
-
-  struct Clock {
-    double start = 0, courant = 0, dt = 0;
-    std::int64_t step = 0, last_step = 0;
-    std::int64_t ticks = 1;  ///< of dt that the next step takes
-    std::int64_t moves = 0;  ///< steps with inertia, where dt is a tick of the flow
-  };
-  struct AtStart {
-    std::int64_t bodies = 0;
-    double closest = 0;  ///< distance of the two nearest particles [m]
-  };
-  struct State {
-    Particles particles;
-    std::vector<Vec2> accelerations;
-    std::int64_t step = 0;
-  };
-  struct Remembered {
-    std::optional<State> last, before;
-  };
   void visit_motion(StateArchive& state);
-  void visit_remembered(StateArchive& state, std::optional<State>& remembered) const;
+
+  /// What counts time where the soil follows a flow. At most one of the first two is there.
+  struct SlowFlow {
+    std::unique_ptr<Consolidation> coupled;
+    std::shared_ptr<TransientWater> seepage;
+    Settling settling;  ///< of the soil in seepage
+
+    explicit operator bool() const { return coupled || seepage; }
+    /// One step from `now`, not beyond `until` [s]; returns the time that it reached.
+    double advance(double now, double until) {
+      return coupled ? coupled->advance(now, until) : seepage->advance(now, until);
+    }
+  };
+  /// Soil that moves with its inertia and pore pressures of its own.
+  struct Motion {
+    std::unique_ptr<DynamicWater> water;  ///< null where that never happens
+    bool now = false;
+    double failed_at = never;  ///< when soil lost its equilibrium in a flow [s]
+  };
+  /// At the present instant, one per particle [m/s2].
+  struct Forces {
+    std::vector<Vec2> accelerations;
+    std::vector<Vec2> unheld;  ///< without what footings do; where pressures change in a step
+    bool valid = false;
+  };
 
   Case scene_;
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
-  std::unique_ptr<Consolidation> consolidation_;
-  std::shared_ptr<TransientWater> seepage_;
-  std::unique_ptr<DynamicWater> moving_water_;  ///< null where the soil never moves with its own
-  bool in_motion_ = false;                      ///< it does now
-  double failed_at_ = never;                    ///< [s]
-  Settling settling_;
+  SurfaceForces surface_;
+  SlowFlow flow_;
+  Motion motion_;
   std::vector<Probe> probes_;
   Clock clock_;
-  std::vector<LoadedParticles> surface_loads_;
-  std::vector<Footing> footings_;
-  std::vector<Vec2> accelerations_;
-  std::vector<Vec2> unheld_;  ///< the same without what footings do; where pressures change in a step
-  bool accelerations_valid_ = false;
-  bool taken_over_ = false;  ///< began with the state of another
-  Relaxation relaxation_;    ///< unused unless the case's damping is adaptive
-  AtStart at_start_;
-  std::optional<Breakdown> instability_;
-  bool runaway_ = false;
-  Remembered good_;
+  Forces forces_;
+  Relaxation relaxation_;  ///< unused unless the case's damping is adaptive
+  BreakdownWatch watch_;
+  GoodStates good_;
 };
 
 }  // namespace porosph

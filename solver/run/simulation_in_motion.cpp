@@ -1,45 +1,56 @@
 // How a simulation of soil that rested in a flow goes on with its inertia once it fails, and how pore
 // pressure moves with soil.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "solver/run/simulation.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 
 /// When so many of its intervals have passed since the soil failed.
 std::int64_t Simulation::motion_tick(double intervals) const {
-  return std::llround((failed_at_ + intervals * scene_.water.coupling.motion_interval) / clock_.dt);
+  return std::llround((motion_.failed_at + intervals * scene_.water.coupling.motion_interval) / clock_.dt);
 }
 
 bool Simulation::motion_is_due() const {
-  if (!follows_flow() || !in_motion_) return false;
+  if (!follows_flow() || !motion_.now) return false;
   return clock_.step ==
-         motion_tick(std::round((time() - failed_at_) / scene_.water.coupling.motion_interval));
+         motion_tick(std::round((time() - motion_.failed_at) / scene_.water.coupling.motion_interval));
+}
+
+/// The next tick at which something is written.
+std::int64_t Simulation::next_due() const {
+  if (!motion_.now) return clock_.next_due(scene_.output);
+  const double interval = scene_.water.coupling.motion_interval;
+  const std::int64_t next = motion_tick(std::floor((time() - motion_.failed_at) / interval + 1e-9) + 1);
+  return std::min(clock_.last_step, std::max(next, clock_.step + 1));
 }
 
 void Simulation::end_after_motion() {
-  const double end = failed_at_ + scene_.water.coupling.motion_time;
+  const double end = motion_.failed_at + scene_.water.coupling.motion_time;
   clock_.last_step = std::min<std::int64_t>(clock_.last_step, std::llround(end / clock_.dt));
 }
 
 /// Equilibrium is lost within a moment from now: the soil goes on with its inertia.
 void Simulation::begin_motion() {
-  failed_at_ = time();
-  in_motion_ = true;
+  motion_.failed_at = time();
+  motion_.now = true;
   end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
-  seepage_->stop(model_.particles);
-  moving_water_->begin_drained();
+  flow_.seepage->stop(model_.particles);
+  motion_.water->begin_drained();
   dynamics_->strain(0);  // it remembers velocities
-  accelerations_valid_ = false;
+  forces_.valid = false;
 }
 
 /// Steps as long as the soil's waves allow, which end where something is due.
 void Simulation::choose_ticks() {
   if (!follows_flow()) return;
-  const double longest = settling_.dt / clock_.dt;
-  const std::int64_t left = next_tick_due() - clock_.step;
+  const double longest = flow_.settling.dt / clock_.dt;
+  const std::int64_t left = next_due() - clock_.step;
   clock_.ticks = left / static_cast<std::int64_t>(std::ceil(static_cast<double>(left) / longest));
 }
 
@@ -47,28 +58,41 @@ void Simulation::choose_ticks() {
 void Simulation::show_excess() {
   Particles& p = model_.particles;
   model_.pore_water->follow(model_.water, p, 0, p.size());
-  const auto excess = moving_water_->excess();
+  const auto excess = motion_.water->excess();
   for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += excess[a];
 }
 
-/// The pressure at the end of the step acts in it; footings hold against both.
-void Simulation::change_pressure() {
-  if (footings_.empty()) return moving_water_->add_change(next_kick(), step_length(), accelerations_);
-  const std::vector<Vec2> held = accelerations_;
-  moving_water_->add_change(next_kick(), step_length(), accelerations_);
-  for (std::size_t a = 0; a < held.size(); ++a) accelerations_[a] += unheld_[a] - held[a];
-  hold_footings();
+/// The pressure at the end of the step acts in it; footings hold against both. Returns false where pressure
+/// and soil have parted.
+bool Simulation::change_pressure() {
+  const std::vector<Vec2> held = surface_.footings.empty() ? std::vector<Vec2>() : forces_.accelerations;
+  try {
+    motion_.water->add_change(next_kick(), step_length(), forces_.accelerations);
+  } catch (const DynamicWater::Lost& lost) {
+    const Vec2 place = model_.particles.position[lost.particle] + model_.origin;
+    stop({.cause = Cause::inverted,
+          .time = time(),
+          .message =
+              fmt::format("at {:.6g} s the pore pressure no longer follows the volume of the soil around "
+                          "{}: it has yielded too far",
+                          time(), place_text(place))});
+    return false;
+  }
+  if (held.empty()) return true;
+  for (std::size_t a = 0; a < held.size(); ++a) forces_.accelerations[a] += forces_.unheld[a] - held[a];
+  hold_footings(forces_.accelerations);
+  return true;
 }
 
 void Simulation::visit_motion(StateArchive& state) {
-  state.value("in_motion", in_motion_);
+  state.value("in_motion", motion_.now);
   state.value("ticks", clock_.ticks);
   state.value("moves", clock_.moves);
-  state.value("failed_at", failed_at_);
-  if (!in_motion_) return;
-  moving_water_->visit(state);
+  state.value("failed_at", motion_.failed_at);
+  if (!motion_.now) return;
+  motion_.water->visit(state);
   if (!state.restoring()) return;
-  moving_water_->take_over();
+  motion_.water->take_over();
   if (follows_flow()) end_after_motion();
 }
 

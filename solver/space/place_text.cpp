@@ -5,9 +5,8 @@
 #include <cmath>
 
 namespace porosph {
-namespace {
 
-std::string coordinate(double x) {
+std::string coordinate_text(double x) {
   if (std::abs(x) < 1000) return fmt::format("{:.6g}", x);
   std::string text = fmt::format("{:.3f}", x);
   text.erase(text.find_last_not_of('0') + 1);
@@ -15,10 +14,8 @@ std::string coordinate(double x) {
   return text;
 }
 
-}  // namespace
-
 std::string place_text(const Vec2& place) {
-  return "(" + coordinate(place.x()) + ", " + coordinate(place.y()) + ")";
+  return "(" + coordinate_text(place.x()) + ", " + coordinate_text(place.y()) + ")";
 }
 
 }  // namespace porosph

@@ -7,7 +7,9 @@
 
 namespace porosph {
 
-/// "(x, y)": six digits, and millimetres at least, so that places far from the origin can be told apart.
+/// Six digits, and millimetres at least, so that places far from the origin can be told apart.
+std::string coordinate_text(double x);
+/// "(x, y)", of such coordinates.
 std::string place_text(const Vec2& place);
 
 }  // namespace porosph

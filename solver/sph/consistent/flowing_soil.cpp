@@ -259,7 +259,7 @@ void FlowingSoil::leave_out_walls(const ReferenceConfiguration& r, const Particl
 
 /// The control's part of what the kernels and leave_out_walls() sum.
 void FlowingSoil::sample_work(const ReferenceConfiguration& r, const Particles& p,
-                              std::span<const PlaneTensor> piola) {
+                              const PlaneTensors& piola) {
   wall_work_.sample(r, p, piola);
   sample_.acceleration.clear();
   if (!sample_.due()) return;

@@ -79,7 +79,7 @@ class FlowingSoil {
   /// The work of the control is counted in one of some steps, for all of them: what it accelerates, with the
   /// velocities before, when forces have been summed ...
   void sample_work(const ReferenceConfiguration& reference, const Particles& particles,
-                   std::span<const PlaneTensor> piola);
+                   const PlaneTensors& piola);
   /// ... and its work once these have changed the velocities, over a step dt [s].
   void count_work(const ReferenceConfiguration& reference, const Particles& particles, double dt);
 

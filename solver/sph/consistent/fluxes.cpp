@@ -98,7 +98,7 @@ void Fluxes::take_pressures_alone(const ReferenceConfiguration& r, const std::ve
     const Mat2 p = excess[a] * (Mat2() << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0)).finished();
     const Mat2 flux = fill[a] * p * r.correction[a];
     flux_.set(a, flux);
-    if (mirrored_[a]) piola_[a] = plane_tensor(p);
+    if (mirrored_[a]) piola_.set(a, p);
     if (!r.listed[a]) continue;
     for (int k = 0; k < 4; ++k) records_[a].q[k] = flux(k / 2, k % 2);
   }
@@ -113,9 +113,9 @@ void Fluxes::fill_ghost_fluxes(const ReferenceConfiguration& r, const std::vecto
     const std::size_t parent = r.ghosts.parent(i);
     const double fill = fills[r.ghosts.root(i)];
     const bool seen = fixed_walls_are_seen || r.ghosts.wall(i).kind != BoundaryKind::fixed;
-    const Mat2 control = seen ? Mat2(flux_[parent] - fill * matrix(piola_[parent]) * r.correction[parent])
-                              : Mat2(Mat2::Zero());
-    const Mat2 flux = fill * matrix(piola_[n + i]) * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
+    const Mat2 control =
+        seen ? Mat2(flux_[parent] - fill * piola_[parent] * r.correction[parent]) : Mat2(Mat2::Zero());
+    const Mat2 flux = fill * piola_[n + i] * r.correction[n + i] + r.ghosts.mirrored_flux(i, control);
     flux_.set(n + i, flux);
     if (!r.listed[n + i]) return;
     double* q = records_[n + i].q;
@@ -134,14 +134,14 @@ void Fluxes::connect(ConsistentArrays& c, const ReferenceConfiguration& r) {
   c.fluxes.listed = r.listed.data();
   c.fluxes.records = records_.data();
   c.fluxes.mirrored = mirrored_.data();
-  c.fluxes.piola = piola_.data()->data();
+  piola_.connect(c.fluxes.piola);
 }
 
 void Fluxes::visit(StateArchive& state, const ReferenceConfiguration& r) {
   const std::size_t n = r.particles();
   for (auto& component : deformation_.component) state.array("deformation", component);
   for (auto& component : flux_.component) state.array("flux", std::span(component).first(n));
-  state.array("piola", std::span(piola_).first(n));
+  for (auto& component : piola_.component) state.array("piola", std::span(component).first(n));
   if (!state.restoring()) return;
   for (std::size_t a = 0; a < n; ++a)
     if (r.listed[a])

@@ -44,7 +44,7 @@ class Fluxes {
   void keep_piola_of(std::span<const std::int32_t> particles) {
     for (const std::int32_t a : particles) mirrored_[a] = 1;
   }
-  std::span<const PlaneTensor> piola() const { return piola_; }  ///< of what is mirrored, and of the ghosts
+  const PlaneTensors& piola() const { return piola_; }  ///< of what is mirrored, and of the ghosts
 
   void connect(ConsistentArrays& arrays, const ReferenceConfiguration& reference);
   /// Saves or restores what the next step needs; ghosts have theirs made when they are needed.
@@ -66,7 +66,7 @@ class Fluxes {
   std::array<std::vector<double>, 2> controlled_;  ///< v + rate * displacement [m/s]; empty without
   SparselyWritten<Record> records_;                ///< flux, p_w and velocity of those that are listed
   std::vector<std::uint8_t> mirrored_;             ///< of the particles: their P is asked for
-  std::vector<PlaneTensor> piola_;                 ///< P of those, and of the ghosts [Pa]
+  PlaneTensors piola_;                             ///< P of those, and of the ghosts [Pa]
   std::vector<Vec2> ghost_positions_;              ///< where the ghosts are now [m]
   StressBehindWalls behind_walls_;
 };

@@ -40,7 +40,8 @@ void close(const Model& model, ReferenceConfiguration& r, std::vector<Mat2>& cor
                                      .ghosts = r.ghosts,
                                      .spacing = model.spacing});
   if (closure.kappa.empty()) return;
-  r.kappa = std::move(closure.kappa);
+  r.kappa.resize(closure.kappa.size());
+  for (std::size_t i = 0; i < closure.kappa.size(); ++i) r.kappa.set(i, closure.kappa[i]);
   correction = std::move(closure.correction);
 }
 
@@ -50,7 +51,7 @@ ReferenceView ReferenceConfiguration::view(const Particles& p) {
   ReferenceView v{};
   v.stencils = &stencils;
   correction.connect(v.correction);
-  v.kappa = closed() ? kappa.data()->data() : nullptr;
+  for (int k = 0; k < 2; ++k) v.kappa[k] = closed() ? kappa.component[k].data() : nullptr;
   v.density = density.data();
   v.fill = p.fill.data();
   return v;

@@ -21,7 +21,7 @@ struct ReferenceConfiguration {
   std::vector<double> density;       ///< of the particles [kg/m3]
   PairStencils stencils;             ///< of the particles
   PlaneTensors correction;           ///< L of eq. (10)
-  std::vector<Vec2> kappa;           ///< of closed gradients [m]; empty where they are closed without
+  PlaneVectors kappa;                ///< of closed gradients [m]; empty where they are closed without
   std::vector<std::uint8_t> listed;  ///< 1 where an own list names it
 
   bool made() const { return !points.empty(); }

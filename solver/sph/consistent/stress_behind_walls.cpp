@@ -82,17 +82,17 @@ void StressBehindWalls::mark_used(const ReferenceConfiguration& r, std::vector<s
   }
 }
 
-void StressBehindWalls::fill(const ReferenceConfiguration& r, std::vector<PlaneTensor>& piola) {
+void StressBehindWalls::fill(const ReferenceConfiguration& r, PlaneTensors& piola) {
   const Ghosts& ghosts = r.ghosts;
   const std::size_t n = ghosts.particles();
   const auto mirror = [&](std::size_t i) {
-    piola[n + i] = plane_tensor(ghosts.mirrored<Mirrors::tensor>(i, matrix(piola[ghosts.parent(i)])));
+    piola.set(n + i, ghosts.mirrored<Mirrors::tensor>(i, piola[ghosts.parent(i)]));
   };
   for (const std::size_t i : mirrored_) mirror(i);
   sum_gradients(piola);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < extrapolated_.size(); ++k)
-    piola[n + extrapolated_[k]] = plane_tensor(extrapolated(r, k, piola));
+    piola.set(n + extrapolated_[k], extrapolated(r, k, piola));
   for (const std::size_t i : mirrored_)  // those mirror what was extrapolated
     if (ghosts.stems_from_ghost(i)) mirror(i);
 }
@@ -105,14 +105,14 @@ double StressBehindWalls::trust(const OneSided& stencil) const {
   return flowed_ ? std::clamp((stencil.determinant - none) / (full - none), 0.0, 1.0) : 1;
 }
 
-void StressBehindWalls::sum_gradients(const std::vector<PlaneTensor>& piola) {
+void StressBehindWalls::sum_gradients(const PlaneTensors& piola) {
 #pragma omp parallel for schedule(static)
   for (std::size_t s = 0; s < stencils_.size(); ++s) {
     const OneSided& stencil = stencils_[s];
-    const Mat2 own = matrix(piola[stencil.particle]);
+    const Mat2 own = piola[stencil.particle];
     Mat2 along_x = Mat2::Zero(), along_y = Mat2::Zero();
     for (std::size_t k = 0; k < stencil.neighbours.size(); ++k) {
-      const Mat2 difference = matrix(piola[stencil.neighbours[k]]) - own;
+      const Mat2 difference = piola[stencil.neighbours[k]] - own;
       along_x += difference * stencil.gradient[k].x();
       along_y += difference * stencil.gradient[k].y();
     }
@@ -121,22 +121,22 @@ void StressBehindWalls::sum_gradients(const std::vector<PlaneTensor>& piola) {
 }
 
 Mat2 StressBehindWalls::extrapolated(const ReferenceConfiguration& r, std::size_t k,
-                                     const std::vector<PlaneTensor>& piola) const {
+                                     const PlaneTensors& piola) const {
   const std::size_t ghost = extrapolated_[k];
   const Continued& c = continued_[k];
   const double trusted = trust(stencils_[c.stencil]);
   if (trusted == 1) return continued(r, k, piola);
-  const Mat2 mirrored = r.ghosts.flux_from_root(ghost, matrix(piola[r.ghosts.root(ghost)]));
+  const Mat2 mirrored = r.ghosts.flux_from_root(ghost, piola[r.ghosts.root(ghost)]);
   if (trusted == 0) return mirrored;
   return trusted * continued(r, k, piola) + (1 - trusted) * mirrored;
 }
 
 Mat2 StressBehindWalls::continued(const ReferenceConfiguration& r, std::size_t k,
-                                  const std::vector<PlaneTensor>& piola) const {
+                                  const PlaneTensors& piola) const {
   const std::size_t ghost = extrapolated_[k];
   const Continued& c = continued_[k];
   const auto& [along_x, along_y] = gradients_[c.stencil];
-  Mat2 root = matrix(piola[r.ghosts.root(ghost)]);
+  Mat2 root = piola[r.ghosts.root(ghost)];
   Mat2 stress = root + along_x * c.way.x() + along_y * c.way.y();
   if (c.turned) root = c.turn * root * c.turn.transpose(), stress = c.turn * stress * c.turn.transpose();
   const Wall& wall = r.ghosts.wall(ghost);

@@ -20,7 +20,7 @@ class StressBehindWalls {
 
   /// Fills P of the ghosts: mirrored, or extrapolated where the wall bears weight. `piola`: particles, then
   /// ghosts; of the particles, those that uses() names are read.
-  void fill(const ReferenceConfiguration& reference, std::vector<PlaneTensor>& piola);
+  void fill(const ReferenceConfiguration& reference, PlaneTensors& piola);
 
   /// Marks the particles whose P is asked for.
   void mark_used(const ReferenceConfiguration& reference, std::vector<std::uint8_t>& used) const;
@@ -44,11 +44,9 @@ class StressBehindWalls {
   static Continued continuation(const ReferenceConfiguration& reference, std::size_t ghost,
                                 std::int32_t stencil);
   double trust(const OneSided& stencil) const;  ///< 0 to 1
-  void sum_gradients(const std::vector<PlaneTensor>& piola);
-  Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t k,
-                    const std::vector<PlaneTensor>& piola) const;
-  Mat2 continued(const ReferenceConfiguration& reference, std::size_t k,
-                 const std::vector<PlaneTensor>& piola) const;
+  void sum_gradients(const PlaneTensors& piola);
+  Mat2 extrapolated(const ReferenceConfiguration& reference, std::size_t k, const PlaneTensors& piola) const;
+  Mat2 continued(const ReferenceConfiguration& reference, std::size_t k, const PlaneTensors& piola) const;
 
   std::vector<std::size_t> extrapolated_, mirrored_;  ///< ghosts of bearing walls, and the others
   std::vector<Continued> continued_;                  ///< beside extrapolated_

@@ -90,7 +90,7 @@ double WallFriction::mobilised_beside(const AtWall& at, const ReferenceConfigura
   return most > 0 ? sum / most : 0;
 }
 
-void WallFriction::apply(const ReferenceConfiguration& r, std::vector<PlaneTensor>& piola) {
+void WallFriction::apply(const ReferenceConfiguration& r, PlaneTensors& piola) {
   const std::size_t n = r.particles();
   std::vector<std::uint8_t> changed(r.ghosts.size(), 0);
   added_.assign(r.ghosts.size(), PlaneTensor{});
@@ -100,20 +100,20 @@ void WallFriction::apply(const ReferenceConfiguration& r, std::vector<PlaneTenso
       const std::size_t i = at.ghosts[k];
       const Wall& wall = r.ghosts.wall(i);
       const std::int32_t a = r.ghosts.root(i);
-      const Mat2 ghost = matrix(piola[n + i]);
+      const Mat2 ghost = piola[n + i];
       if (!r.ghosts.stems_from_ghost(i))
-        at.pressure[a] = -0.5 * wall.normal.dot((ghost + matrix(piola[a])) * wall.normal);
+        at.pressure[a] = -0.5 * wall.normal.dot((ghost + piola[a]) * wall.normal);
       const double shear = mobilised_beside(at, r, wall, a) * wall.friction * at.lagging[a];
-      const Mat2 own = matrix(piola[r.ghosts.parent(i)]);
+      const Mat2 own = piola[r.ghosts.parent(i)];
       added_[i] = plane_tensor(added_by_friction(ghost, own, shear, wall));
-      piola[n + i] = plane_tensor(ghost + matrix(added_[i]));
+      piola.set(n + i, ghost + matrix(added_[i]));
       changed[i] = 1;
     }
   }
   for (const std::size_t i : r.ghosts.of_ghosts()) {  // what other walls mirror of it
     if (changed[i] || !changed[r.ghosts.parent(i) - n]) continue;
     const std::size_t parent = r.ghosts.parent(i);
-    piola[n + i] = plane_tensor(r.ghosts.mirrored<Mirrors::tensor>(i, matrix(piola[parent])));
+    piola.set(n + i, r.ghosts.mirrored<Mirrors::tensor>(i, piola[parent]));
     added_[i] = plane_tensor(r.ghosts.mirrored<Mirrors::tensor>(i, matrix(added_[parent - n])));
     changed[i] = 1;
   }

@@ -26,7 +26,7 @@ class WallFriction {
   void slide(const Model& model, double dt);
   /// Adds the walls' shear to the ghosts' first Piola-Kirchhoff stress, once that is the frictionless walls',
   /// and keeps the normal stress there for the next step. `piola`: particles, then ghosts [Pa].
-  void apply(const ReferenceConfiguration& reference, std::vector<PlaneTensor>& piola);
+  void apply(const ReferenceConfiguration& reference, PlaneTensors& piola);
 
   /// The work of friction is counted in one of some steps, for all of them: what it accelerates, with the
   /// velocities before, when forces have been summed ...

@@ -19,8 +19,7 @@ void WallWork::take(const ReferenceConfiguration& r) {
   }
 }
 
-void WallWork::sample(const ReferenceConfiguration& r, const Particles& p,
-                      std::span<const PlaneTensor> piola) {
+void WallWork::sample(const ReferenceConfiguration& r, const Particles& p, const PlaneTensors& piola) {
   velocity_.clear();
   if (steps_ % steps_between_samples != 0) return;
   velocity_ = p.velocity;
@@ -30,7 +29,7 @@ void WallWork::sample(const ReferenceConfiguration& r, const Particles& p,
   for (std::size_t k = 0; k < at_walls_.size(); ++k) {
     const std::int32_t a = at_walls_[k];
     const auto flux = [&](std::int32_t b, std::int32_t root) {
-      return Mat2(p.fill[root] * matrix(piola[b]) * r.correction[b]);
+      return Mat2(p.fill[root] * piola[b] * r.correction[b]);
     };
     flux_[k] = flux(a, a);
     Vec2 force = Vec2::Zero();

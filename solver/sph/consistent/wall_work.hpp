@@ -23,8 +23,7 @@ class WallWork {
   void take(const ReferenceConfiguration& reference);
 
   /// What acts now, in one of some steps; `piola` is P of the particles that see ghosts, and of the ghosts.
-  void sample(const ReferenceConfiguration& reference, const Particles& particles,
-              std::span<const PlaneTensor> piola);
+  void sample(const ReferenceConfiguration& reference, const Particles& particles, const PlaneTensors& piola);
   /// Adds the work of that once it has changed the velocities, over a step dt [s].
   void count(const ReferenceConfiguration& reference, const Particles& particles, double dt);
 

@@ -170,31 +170,67 @@ template <class Space>
   }
 }
 
-/// What closed gradients add: sum_b (P_a + P_b) w_ab (kappa_b - kappa_a) and, likewise, sum_b (p_b - p_a) ...
-template <class Space, bool wet>
-void add_closing_accelerations(const ConsistentArraysIn<Space>& c, const TileRange& tile, double* out) {
-  constexpr int dim = Space::dim, size = matrix_size<Space>;
-  for (std::int32_t a = tile.first; a < tile.last; ++a) {
-    const double* own = c.fluxes.piola + size * static_cast<std::int64_t>(a);
-    const auto kappa = vector_of<dim>(c.reference.kappa, a);
-    double force[3]{};
-    typename Components<dim>::Type pressure{};
-    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const auto& g) {
-      const double* other = c.fluxes.piola + size * static_cast<std::int64_t>(b);
-      const auto k = g.w * (vector_of<dim>(c.reference.kappa, b) - kappa);
-      for (int i = 0; i < dim; ++i) {
-        double term = (own[dim * i] + other[dim * i]) * k[0];
-        for (int j = 1; j < dim; ++j) term += (own[dim * i + j] + other[dim * i + j]) * k[j];
-        force[i] += term;
+/// What closed gradients add: sum_b (P_a + P_b) w_ab (kappa_b - kappa_a) and, likewise, sum_b (p_b - p_a)
+/// ..., of a stretch.
+template <class Space, bool wet, class Piece>
+void shared_closing_sums(const ConsistentArraysIn<Space>& c, const Piece& piece, std::int32_t first,
+                         Row* out) {
+  constexpr int dim = Space::dim;
+  const auto& s = *c.reference.stencils;
+  const auto stretch = s.stretches[piece.stretch];
+  by_vectors(piece, stretch, [&](std::int32_t a) {
+    Vector change[dim], all[dim]{}, force[dim]{}, pressure[dim]{};
+    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
+      const std::int32_t b = a + s.offset[k];
+      for (int j = 0; j < dim; ++j) {
+        change[j] = s.shared[k].w * (load(c.reference.kappa[j] + b) - load(c.reference.kappa[j] + a));
+        all[j] += change[j];
       }
-      if (wet) pressure += k * (c.motion.pressure[b] - c.motion.pressure[a]);
-    });
-    if constexpr (wet && dim == 3)
-      add_pushed_forward<Space>(force, c.state.deformation, a, {pressure[0], pressure[1], pressure[2]});
-    else if constexpr (wet)
-      add_pushed_forward<Space>(force, c.state.deformation, a, {pressure[0], pressure[1]});
-    for (int i = 0; i < dim; ++i)
-      out[dim * static_cast<std::int64_t>(a) + i] += force[i] / c.reference.density[a];
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j) force[i] += change[j] * load(c.fluxes.piola[dim * i + j] + b);
+      if (wet) {
+        const Vector p = load(c.motion.pressure + b) - load(c.motion.pressure + a);
+        for (int j = 0; j < dim; ++j) pressure[j] += change[j] * p;
+      }
+    }
+    for (int i = 0; i < dim; ++i) {
+      for (int j = 0; j < dim; ++j) force[i] += all[j] * load(c.fluxes.piola[dim * i + j] + a);
+      store(out[i].of(a, first), force[i]);
+      if (wet) store(out[dim + i].of(a, first), pressure[i]);
+    }
+  });
+}
+
+/// The same of a particle with a list of its own. Two sums of each: an addition need not wait for the one
+/// before.
+template <class Space, bool wet, class Pair>
+inline void own_closing_sums(const ConsistentArraysIn<Space>& c, const Pair* g, std::int32_t a,
+                             std::int32_t first, Row* out) {
+  constexpr int dim = Space::dim;
+  const auto& s = *c.reference.stencils;
+  struct Sums {
+    double all[dim]{}, force[dim][dim]{}, pressure[dim]{};
+  } sums[2];
+  const auto add = [&](std::int64_t k, Sums& to) {
+    const std::int32_t b = s.index[k];
+    const double p = wet ? c.motion.pressure[b] - c.motion.pressure[a] : 0;
+    for (int j = 0; j < dim; ++j) {
+      const double change = g[k].w * (c.reference.kappa[j][b] - c.reference.kappa[j][a]);
+      to.all[j] += change, to.pressure[j] += change * p;
+      for (int i = 0; i < dim; ++i) to.force[i][j] += change * c.fluxes.piola[dim * i + j][b];
+    }
+  };
+  std::int64_t k = s.begin[a] + 1;
+  const std::int64_t last = s.begin[a + 1];
+  for (; k + 1 < last; k += 2) add(k, sums[0]), add(k + 1, sums[1]);
+  if (k < last) add(k, sums[0]);
+  for (int i = 0; i < dim; ++i) {
+    double force = 0;
+    for (int j = 0; j < dim; ++j)
+      force += sums[0].force[i][j] + sums[1].force[i][j] +
+               (sums[0].all[j] + sums[1].all[j]) * c.fluxes.piola[dim * i + j][a];
+    *out[i].of(a, first) = force;
+    *out[dim + i].of(a, first) = sums[0].pressure[i] + sums[1].pressure[i];
   }
 }
 
@@ -233,6 +269,15 @@ struct TileForces {
     const double per_mass = 1 / density[i];
     for (int d = 0; d < dim; ++d) result[dim * i + d] = f[d] * per_mass + gravity[d];
   }
+  /// Of the sums that closed gradients add.
+  template <bool wet>
+  [[gnu::always_inline]] void close(std::int32_t i) const {
+    double f[3] = {force[0][i], force[1][i], 0};
+    if constexpr (dim == 3) f[2] = force[2][i];
+    if (wet) add_pushed_forward<Space>(f, deformation, i, vector_at<dim>(pressure, i));
+    const double per_mass = 1 / density[i];
+    for (int d = 0; d < dim; ++d) result[dim * i + d] += f[d] * per_mass;
+  }
 
   const double *density, *fill, *radius, *hoop;
   double* result;
@@ -240,6 +285,19 @@ struct TileForces {
   const double *force[dim], *pressure[dim], *deformation[gradient_size<Space>],
       *correction[matrix_size<Space>];
 };
+
+template <class Space, bool wet>
+void add_closing_accelerations(const ConsistentArraysIn<Space>& c, const TileRange& tile, double* out) {
+  Row sum[2 * Space::dim];
+  for_each_piece(
+      *c.reference.stencils, tile,
+      [&](const auto& piece) { shared_closing_sums<Space, wet>(c, piece, tile.first, sum); },
+      [&](const auto* pairs, std::int32_t a) { own_closing_sums<Space, wet>(c, pairs, a, tile.first, sum); });
+  const TileForces<Space> forces(c, tile, sum, out);
+  const std::int32_t count = tile.last - tile.first;
+#pragma omp simd
+  for (std::int32_t i = 0; i < count; ++i) forces.template close<wet>(i);
+}
 
 template <class Space, bool wet, bool varies>
 void accelerate_tile(const ConsistentArraysIn<Space>& c, const TileRange& tile, double* out) {
@@ -252,7 +310,7 @@ void accelerate_tile(const ConsistentArraysIn<Space>& c, const TileRange& tile, 
   const std::int32_t count = tile.last - tile.first;
 #pragma omp simd
   for (std::int32_t i = 0; i < count; ++i) forces.template accelerate<wet>(i);
-  if (c.reference.kappa) add_closing_accelerations<Space, wet>(c, tile, out);
+  if (c.reference.kappa[0]) add_closing_accelerations<Space, wet>(c, tile, out);
 }
 
 }  // namespace

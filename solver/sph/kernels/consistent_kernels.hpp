@@ -35,10 +35,10 @@ template <class Space>
 struct ReferenceViewIn {
   const PairStencilsIn<Space>* stencils;
   const double* correction[matrix_size<Space>];  ///< L, and ghost
-  const double* kappa;    ///< of closed gradients, a vector each, and ghost [m]; or null
-  const double* density;  ///< [kg/m3]
-  const double* fill;     ///< share of its cell that a particle fills
-  const double* radius;   ///< X of Axisymmetric, and ghost [m]; otherwise unused
+  const double* kappa[Space::dim];               ///< of closed gradients, and ghost [m]; or null
+  const double* density;                         ///< [kg/m3]
+  const double* fill;                            ///< share of its cell that a particle fills
+  const double* radius;                          ///< X of Axisymmetric, and ghost [m]; otherwise unused
 };
 
 /// What the forces and rates are summed from.
@@ -79,8 +79,8 @@ struct FluxViewIn {
   const std::uint8_t* listed;        ///< 1 where an own list names the particle: its record is kept
   RecordIn<Space>* records;      ///< flux, pressure, viscosity and velocity or controlled motion, and ghost
   const std::uint8_t* mirrored;  ///< 1 where ghosts or closed gradients ask for P
-  double* piola;                 ///< P of those, a matrix each, and ghost [Pa]
-  double* hoop;                  ///< the hoop's part of P in Axisymmetric [Pa]; otherwise unused
+  double* piola[matrix_size<Space>];  ///< P of those, and ghost [Pa]
+  double* hoop;                       ///< the hoop's part of P in Axisymmetric [Pa]; otherwise unused
 };
 
 /// Zero-energy control and bulk viscosity.

@@ -7,7 +7,7 @@
 namespace porosph::POROSPH_VECTOR_UNITS {
 namespace {
 
-/// As material_step, or where `place` >= 0 as interface_step.
+/// As material_step; where `place` >= 0 another soil is near.
 LargestChange external_step(const ConsistentArrays& c, const TileStep<Plane>& tile, std::int32_t first,
                             std::int32_t last, const LawView& view, double elastic, std::int32_t place) {
   const TileStep<Plane> t = tile;
@@ -26,7 +26,7 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep<Plane>& ti
   SoilTile soil{.count = last - first,
                 .dt = t.dt,
                 .gradient = {},
-                .stress = t.stress + 4 * first,
+                .stress = t.state.stress + 4 * first,
                 .history = {history, view.history_count}};
   for (int k = 0; k < 4; ++k) soil.gradient[k] = gradient[k] + first;
   law.step(soil);
@@ -38,13 +38,14 @@ LargestChange external_step(const ConsistentArrays& c, const TileStep<Plane>& ti
     const double density = t.compressed(i, f, strain, speed_squared);
     const std::int32_t j = i - first;
     const double yields = departs(t.old_stress(i), elastic_stress[j]);
-    if (t.yields) t.yields[i] = yields;
-    if (t.viscosity) t.viscosity[i] = t.mu;
+    if (t.state.yields) t.state.yields[i] = yields;
+    if (t.flow.viscosity) t.flow.viscosity[i] = t.control.viscosity;
     if (place < 0)
-      t.write_flux(i, t.old_stress(i), f, density, modulus, g.trace(), t.controlled(i, f, elastic), t.mu);
+      t.write_flux(i, t.old_stress(i), f, density, modulus, g.trace(), t.controlled(i, f, elastic),
+                   t.control.viscosity);
     else
       t.write_flux(i, side.tied(j, t.old_stress(i), g, t.dt, yields), f, density, modulus, g.trace(),
-                   side.controlled(t, i, j, f), t.mu);
+                   side.controlled(t, i, j, f), t.control.viscosity);
   }
   return {strain, speed_squared};
 }

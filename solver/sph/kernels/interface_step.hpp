@@ -1,5 +1,5 @@
-// The material step where another soil is near, in the plane. For the kernels only, which are compiled for
-// each kind of vector units.
+// What the material step does where another soil is near, in the plane. For the kernels only, which are
+// compiled for each kind of vector units.
 #pragma once
 
 #include "solver/sph/kernels/material_step.hpp"
@@ -52,51 +52,6 @@ struct OwnSideStep {
   const double *along_x, *along_y, *elastic;
   const double *a[16], *tie[4];
 };
-
-/// As particle_step where another soil is near: particle i of the tile, and j of the stretch.
-template <SoilLaw Law, Watch watch>
-[[gnu::always_inline]] inline void particle_step_at_interface(const TileStep<Plane>& t,
-                                                              const OwnSideStep& side, std::int32_t i,
-                                                              std::int32_t j, const Law& law,
-                                                              double* const* history, const Found& found) {
-  const Gradient gradient = side.gradient(j, watch == Watch::flow ? t.gradient_in_flow(i) : t.gradient(i));
-  typename Law::History q = load_history<Law>(history, i);
-  const double bears = watch == Watch::flow ? t.bears[i] : 1;
-  const Stress old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
-  const bool watched = watch != Watch::nothing;
-  const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
-  if (watched) t.yields[i] = yields;
-  store_history<Law>(history, i, q);
-  t.store_stress(i, s);
-  const Gradient f = watch == Watch::flow ? t.deformed_in_flow(i) : t.deformed(i);
-  const double density = t.compressed(i, f, found.strain, found.speed_squared);
-  const double modulus = law.constrained_modulus(s, q);
-  double mu = t.mu;
-  if (watch == Watch::flow) {
-    const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus, yields);
-    mu = flow.mu;
-    found.plastic += flow.plastic, found.viscous += flow.viscous;
-  }
-  t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, density, modulus, gradient.trace(),
-               side.controlled(t, i, j, f), mu);
-}
-
-/// As material_step where another soil is near. `place` of the first particle in the own sides.
-template <SoilLaw Law, Watch watch>
-LargestChange interface_step(const ConsistentArrays& c, const TileStep<Plane>& tile, std::int32_t first,
-                             std::int32_t last, const LawView& view, std::int32_t place) {
-  const TileStep<Plane> t = tile;
-  const OwnSideStep side(c, t.particle + first, place);
-  const Law law = *static_cast<const Law*>(view.law);
-  double* history[history_size<Law> + 1];
-  for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
-  double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
-#pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
-  for (std::int32_t j = 0; j < last - first; ++j)
-    particle_step_at_interface<Law, watch>(t, side, first + j, j, law, history,
-                                           {strain, speed_squared, plastic, viscous});
-  return {strain, speed_squared, plastic, viscous};
-}
 
 }  // namespace
 }  // namespace porosph::POROSPH_VECTOR_UNITS

@@ -24,76 +24,67 @@ struct TileStep {
   TileStep(const ConsistentArraysIn<Space>& c, const TileRange& tile, const Row* rates, Row* piola_rows,
            double step)
       : particle(tile.first),
-        reference_density(c.reference.density + tile.first),
-        fill(c.reference.fill + tile.first),
-        radius(c.reference.radius + (has_hoop<Space> ? tile.first : 0)),
-        stress(c.state.stress + stress_size<Space> * tile.first),
-        density(c.state.density + tile.first),
-        yields(c.state.yields ? c.state.yields + tile.first : nullptr),
-        viscosity(c.flow.viscosity ? c.flow.viscosity + tile.first : nullptr),
-        sheared(c.flow.viscosity ? c.flow.sheared + tile.first : nullptr),
-        hoop(c.fluxes.hoop + (has_hoop<Space> ? tile.first : 0)),
-        bears(c.flow.bears + (c.flow.viscosity ? tile.first : 0)),
-        deforms(c.flow.deforms + (c.flow.viscosity ? tile.first : 0)),
-        excess((c.state.excess ? c.state.excess : c.reference.fill) + tile.first),
-        mass(c.flow.mass + (c.flow.viscosity ? tile.first : 0)),
+        reference(c.reference),
+        state(c.state),
+        fluxes(c.fluxes),
+        control(c.control),
+        flow(c.flow),
         excess_share(c.state.excess ? 1 : 0),
-        mu(c.control.viscosity),
-        length_squared(c.flow.length_squared),
-        weight(c.flow.weight),
-        bulk_length(c.control.bulk_length),
         dt(step),
         half(0.5 * step) {
-    for (int d = 0; d < Space::dim; ++d) velocity[d] = c.motion.velocity[d] + tile.first;
-    for (int k = 0; k < gradients; ++k)
-      rate[k] = rates[k].value, deformation[k] = c.state.deformation[k] + tile.first;
-    for (int k = 0; k < matrix; ++k) {
-      piola[k] = piola_rows[k].value;
-      correction[k] = c.reference.correction[k] + tile.first;
-      flux[k] = c.fluxes.flux[k] + tile.first;
-    }
+    if (!c.state.excess) state.excess = c.reference.fill;
+    const auto begin = [&](auto&... of_all) { ((of_all += of_all ? particle : 0), ...); };
+    begin(reference.density, reference.fill, reference.radius, fluxes.hoop);
+    begin(state.density, state.yields, state.excess);
+    begin(flow.viscosity, flow.sheared, flow.bears, flow.deforms, flow.mass);
+    state.stress += stress_size<Space> * particle;
+    for (int d = 0; d < Space::dim; ++d) velocity[d] = c.motion.velocity[d] + particle;
+    for (int k = 0; k < gradients; ++k) rate[k] = rates[k].value, begin(state.deformation[k]);
+    for (int k = 0; k < matrix; ++k)
+      piola[k] = piola_rows[k].value, begin(reference.correction[k], fluxes.flux[k]);
   }
 
   /// Velocity gradient at the middle of the step.
   [[gnu::always_inline]] Gradient gradient(std::int32_t i) const {
     const Gradient r = gradient_at<Space>(rate, i);
-    return mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half, r));
+    return mid_step_gradient(r, plus(gradient_at<Space>(state.deformation, i), half, r));
   }
   /// The same where soil flows, also of particles whose F is not carried by their rate.
   [[gnu::always_inline]] Gradient gradient_in_flow(std::int32_t i) const {
     const Gradient r = gradient_at<Space>(rate, i);
-    return mid_step_gradient(r, plus(gradient_at<Space>(deformation, i), half * deforms[i], r));
+    return mid_step_gradient(r, plus(gradient_at<Space>(state.deformation, i), half * flow.deforms[i], r));
   }
   [[gnu::always_inline]] Stress old_stress(std::int32_t i) const {
-    const double* s = stress + stress_size<Space> * i;
+    const double* s = state.stress + stress_size<Space> * i;
     if constexpr (Space::dim == 3)
       return {s[0], s[1], s[2], s[3], s[4], s[5]};
     else
       return {s[0], s[1], s[2], s[3]};
   }
   [[gnu::always_inline]] void store_stress(std::int32_t i, const Stress& s) const {
-    double* to = stress + stress_size<Space> * i;
+    double* to = state.stress + stress_size<Space> * i;
     to[0] = s.xx, to[1] = s.yy, to[2] = s.zz, to[3] = s.xy;
     if constexpr (Space::dim == 3) to[4] = s.yz, to[5] = s.xz;
   }
 
   /// F after the step.
   [[gnu::always_inline]] Gradient deformed(std::int32_t i) const {
-    const Gradient f = plus(gradient_at<Space>(deformation, i), dt, gradient_at<Space>(rate, i));
-    put(deformation, i, f);
+    const Gradient f = plus(gradient_at<Space>(state.deformation, i), dt, gradient_at<Space>(rate, i));
+    put(state.deformation, i, f);
     return f;
   }
   /// The same where soil flows, but of particles whose F is not carried by their rate.
   [[gnu::always_inline]] Gradient deformed_in_flow(std::int32_t i) const {
-    const Gradient f = plus(gradient_at<Space>(deformation, i), dt * deforms[i], gradient_at<Space>(rate, i));
-    put(deformation, i, f);
+    const Gradient f =
+        plus(gradient_at<Space>(state.deformation, i), dt * flow.deforms[i], gradient_at<Space>(rate, i));
+    put(state.deformation, i, f);
     return f;
   }
   /// The density there.
   [[gnu::always_inline]] double compressed(std::int32_t i, const Gradient& f, double& strain,
                                            double& speed_squared) const {
-    const double rho = reference_density[i] / determinant(f);
-    density[i] = rho;
+    const double rho = reference.density[i] / determinant(f);
+    state.density[i] = rho;
     strain = larger(strain, largest_strain(f));
     double squared = velocity[0][i] * velocity[0][i] + velocity[1][i] * velocity[1][i];
     if constexpr (Space::dim == 3) squared += velocity[2][i] * velocity[2][i];
@@ -108,18 +99,19 @@ struct TileStep {
 
   /// P, and the flux fill P L less the zero-energy control, of the effective stress `s` and p_e.
   [[gnu::always_inline]] void write_flux(std::int32_t i, const Stress& s, const Gradient& f, double rho,
-                                         double modulus, double dilatation, const MatrixOf<Space>& control,
-                                         double viscosity_of_control) const {
-    const double q = bulk_viscosity(bulk_length, std::sqrt(modulus * rho), dilatation);
-    const Gradient p = first_piola(s.plus_isotropic(q).plus_isotropic(excess_share * excess[i]), f);
+                                         double modulus, double dilatation, const MatrixOf<Space>& controlled,
+                                         double viscosity) const {
+    const double q = bulk_viscosity(control.bulk_length, std::sqrt(modulus * rho), dilatation);
+    const Gradient p = first_piola(s.plus_isotropic(q).plus_isotropic(excess_share * state.excess[i]), f);
     put(piola, i, matrix_of(p));
-    const MatrixOf<Space> of_fill = product(matrix_of(p), scaled(fill[i], matrix_at<Space>(correction, i)));
-    const MatrixOf<Space> net = less(of_fill, viscosity_of_control, control);
+    const MatrixOf<Space> of_fill =
+        product(matrix_of(p), scaled(reference.fill[i], matrix_at<Space>(reference.correction, i)));
+    const MatrixOf<Space> net = less(of_fill, viscosity, controlled);
     if constexpr (has_hoop<Space>) {
-      hoop[i] = p.zz;
-      put(flux, i, scaled(radius[i], net));
+      fluxes.hoop[i] = p.zz;
+      put(fluxes.flux, i, scaled(reference.radius[i], net));
     } else {
-      put(flux, i, net);
+      put(fluxes.flux, i, net);
     }
   }
 
@@ -127,23 +119,25 @@ struct TileStep {
   [[gnu::always_inline]] double bounded_viscosity(std::int32_t i, const Gradient& g, double density_now,
                                                   double strength, double sin_phi, double yielding) const {
     const double gamma = shear_rate_of(g);
-    const double least = sin_phi * density_now * weight, k = strength > least ? strength : least;
+    const double least = sin_phi * density_now * flow.weight, k = strength > least ? strength : least;
     // As k / gamma may be too large for a number: compared as products.
-    const double inertial = density_now * length_squared * gamma;
-    const bool bounded = bears[i] > 0 && 0.1 * k < (mu - inertial) * gamma;
+    const double inertial = density_now * flow.length_squared * gamma;
+    const bool bounded = flow.bears[i] > 0 && 0.1 * k < (control.viscosity - inertial) * gamma;
     const double bound = 0.1 * k / (bounded ? gamma : 1) + inertial;
-    sheared[i] += dt * yielding * gamma;
-    return viscosity[i] = bounded ? bound : mu;
+    flow.sheared[i] += dt * yielding * gamma;
+    return flow.viscosity[i] = bounded ? bound : control.viscosity;
   }
 
   std::int32_t particle;  ///< the tile's first
-  const double *reference_density, *fill, *radius;
-  double *stress, *density, *yields, *viscosity, *sheared, *hoop;
-  const double *bears, *deforms, *excess, *mass;
+  ReferenceViewIn<Space> reference;
+  SoilStateViewIn<Space> state;
+  FluxViewIn<Space> fluxes;
+  StabilisationView control;
+  FlowView flow;
   double excess_share;  ///< 0: the soil carries none, and `excess` is any array
-  double mu, length_squared, weight, bulk_length, dt, half;
-  const double *velocity[Space::dim], *rate[gradients], *correction[matrix];
-  double *piola[matrix], *deformation[gradients], *flux[matrix];
+  double dt, half;
+  const double *velocity[Space::dim], *rate[gradients];
+  double* piola[matrix];
 };
 
 /// 1 where the law's stress is not that of an elastic step, or else 0.
@@ -167,7 +161,7 @@ template <class Space, SoilLaw<Space> Law>
   if constexpr (YieldingLaw<Law, Space>)
     return t.bounded_viscosity(i, g, density, law.shear_strength(s, q), law.sin_friction(q),
                                always ? 1 : yields);
-  return t.viscosity[i] = t.mu;
+  return t.flow.viscosity[i] = t.control.viscosity;
 }
 
 /// What flow asks for of a particle's step.
@@ -182,8 +176,9 @@ template <class Space, SoilLaw<Space> Law>
                                                    const typename Law::History& q, const GradientIn<Space>& g,
                                                    double density, double modulus, double yields) {
   const double work = 0.5 * t.dt * power(old + s, g);
-  const double trace = g.trace(), volume = t.mass[i] / density;
-  const double resisted = t.dt * bulk_viscosity(t.bulk_length, std::sqrt(modulus * density), trace) * trace;
+  const double trace = g.trace(), volume = t.flow.mass[i] / density;
+  const double resisted =
+      t.dt * bulk_viscosity(t.control.bulk_length, std::sqrt(modulus * density), trace) * trace;
   return {.mu = control_viscosity(t, i, law, s, q, g, density, yields),
           .plastic = volume * (work - law.stored_energy(s) + law.stored_energy(old)),
           .viscous = volume * resisted};
@@ -194,44 +189,68 @@ struct Found {
   double &strain, &speed_squared, &plastic, &viscous;
 };
 
-/// Particle i of the tile. In a function of its own, because what a loop's body itself declares and hands on
-/// by reference, such as the history, stays in memory, and the loop does not become vector code.
-template <class Space, SoilLaw<Space> Law, Watch watch>
-[[gnu::always_inline]] inline void particle_step(const TileStep<Space>& t, std::int32_t i, const Law& law,
-                                                 double* const* history, double elastic, const Found& found) {
-  const GradientIn<Space> gradient = watch == Watch::flow ? t.gradient_in_flow(i) : t.gradient(i);
+/// What a step does with the gradient where no other soil is near; OwnSideStep does it elsewhere.
+template <class Space>
+struct OneSoilStep {
+  [[gnu::always_inline]] const GradientIn<Space>& gradient(std::int32_t, const GradientIn<Space>& g) const {
+    return g;
+  }
+  [[gnu::always_inline]] const Symmetric<Space>& tied(std::int32_t, const Symmetric<Space>& s,
+                                                      const GradientIn<Space>&, double, double) const {
+    return s;
+  }
+  [[gnu::always_inline]] MatrixOf<Space> controlled(const TileStep<Space>& t, std::int32_t i, std::int32_t,
+                                                    const GradientIn<Space>& f) const {
+    return t.controlled(i, f, elastic);
+  }
+
+  double elastic;  ///< k of the control in this soil [1/s]
+};
+
+/// Particle i of the tile, and j of those with this law. In a function of its own, because what a loop's body
+/// itself declares and hands on by reference, such as the history, stays in memory, and the loop does not
+/// become vector code.
+template <class Space, SoilLaw<Space> Law, Watch watch, class Side>
+[[gnu::always_inline]] inline void particle_step(const TileStep<Space>& t, const Side& side, std::int32_t i,
+                                                 std::int32_t j, const Law& law, double* const* history,
+                                                 const Found& found) {
+  const GradientIn<Space> gradient =
+      side.gradient(j, watch == Watch::flow ? t.gradient_in_flow(i) : t.gradient(i));
   typename Law::History q = load_history<Law>(history, i);
-  const double bears = watch == Watch::flow ? t.bears[i] : 1;
+  const double bears = watch == Watch::flow ? t.flow.bears[i] : 1;
   const Symmetric<Space> old = t.old_stress(i), s = law.step(old, gradient, t.dt, q) * bears;
   const bool watched = watch != Watch::nothing;
   const double yields = watched ? departs(s, law.elastic_step(old, gradient, t.dt)) : 0;
-  if (watched) t.yields[i] = yields;
+  if (watched) t.state.yields[i] = yields;
   store_history<Law>(history, i, q);
   t.store_stress(i, s);
   const GradientIn<Space> f = watch == Watch::flow ? t.deformed_in_flow(i) : t.deformed(i);
   const double density = t.compressed(i, f, found.strain, found.speed_squared);
   const double modulus = law.constrained_modulus(s, q);
-  double mu = t.mu;
+  double mu = t.control.viscosity;
   if (watch == Watch::flow) {
     const FlowTerms flow = flow_terms(t, i, law, old, s, q, gradient, density, modulus, yields);
     mu = flow.mu;
     found.plastic += flow.plastic, found.viscous += flow.viscous;
   }
-  t.write_flux(i, s, f, density, modulus, gradient.trace(), t.controlled(i, f, elastic), mu);
+  t.write_flux(i, side.tied(j, s, gradient, t.dt, yields), f, density, modulus, gradient.trace(),
+               side.controlled(t, i, j, f), mu);
 }
 
-/// Particles first to last - 1 of the tile, which have this law. `elastic`: k of the control in this soil.
-template <class Space, SoilLaw<Space> Law, Watch watch>
-LargestChange material_step(const TileStep<Space>& tile, std::int32_t first, std::int32_t last,
-                            const LawView& view, double elastic) {
+/// Particles first to last - 1 of the tile, which have this law.
+template <class Space, SoilLaw<Space> Law, Watch watch, class Side>
+LargestChange material_step(const TileStep<Space>& tile, const Side& side, std::int32_t first,
+                            std::int32_t last, const LawView& view) {
   const TileStep<Space> t = tile;  // of this function's own: nothing that is written can be part of it
+  const Side own = side;
   const Law law = *static_cast<const Law*>(view.law);
   double* history[history_size<Law> + 1];
   for (std::size_t k = 0; k < history_size<Law>; ++k) history[k] = view.history[k] + t.particle;
   double strain = 0, speed_squared = 0, plastic = 0, viscous = 0;
 #pragma omp simd reduction(max : strain, speed_squared) reduction(+ : plastic, viscous)
   for (std::int32_t i = first; i < last; ++i)
-    particle_step<Space, Law, watch>(t, i, law, history, elastic, {strain, speed_squared, plastic, viscous});
+    particle_step<Space, Law, watch>(t, own, i, i - first, law, history,
+                                     {strain, speed_squared, plastic, viscous});
   return {strain, speed_squared, plastic, viscous};
 }
 

@@ -23,16 +23,17 @@ struct Geometry {
   Vector coincident = all(1e-30), xx{}, xy{}, yy{}, gx{}, gy{};
 
   template <class Own>
-  Geometry(const Arrays& arrays, Own&& own) : c(arrays), x(own(c.position[0])), y(own(c.position[1])) {}
+  Geometry(const Arrays& arrays, Own&& own)
+      : c(arrays), x(own(c.points.position[0])), y(own(c.points.position[1])) {}
 
   template <class Of>
   void add(double* weight, Of&& of) {
-    const Vector dx = of(c.position[0]) - x, dy = of(c.position[1]) - y;
+    const Vector dx = of(c.points.position[0]) - x, dy = of(c.points.position[1]) - y;
     const Vector squared = (dx * dx + dy * dy) * per_h_squared;  // cubic spline, eq. (2)
     const Vector q2 = squared > coincident ? squared : coincident;
     const Vector per_q = inverse_square_root(q2), q = q2 * per_q;
     const Vector rest = 2 - q, t = rest > 0 ? rest : Vector{};
-    const Vector w = of(c.volume) * (q < 1 ? inner - inner_q * q : outer * t * t * per_q);
+    const Vector w = of(c.points.volume) * (q < 1 ? inner - inner_q * q : outer * t * t * per_q);
     store(weight, w);
     const Vector x_part = w * dx, y_part = w * dy;
     xx += x_part * dx, xy += x_part * dy, yy += y_part * dy;
@@ -55,32 +56,34 @@ struct Forces {
   Vector xx_x{}, xx_y{}, xy_x{}, xy_y{}, yy_x{}, yy_y{}, fx{}, fy{}, px{}, py{}, rx{}, ry{};
 
   template <class Own>
-  Forces(const Arrays& arrays, Own&& own) : c(arrays), x(own(c.position[0])), y(own(c.position[1])) {
+  Forces(const Arrays& arrays, Own&& own)
+      : c(arrays), x(own(c.points.position[0])), y(own(c.points.position[1])) {
     if (!viscous) return;
-    vx = own(c.velocity[0]), vy = own(c.velocity[1]);
-    rho = own(c.density), sound = own(c.sound);
+    vx = own(c.points.velocity[0]), vy = own(c.points.velocity[1]);
+    rho = own(c.points.density), sound = own(c.points.sound);
   }
 
   template <class Of>
   void add(const double* weight, Of&& of) {
-    const Vector dx = of(c.position[0]) - x, dy = of(c.position[1]) - y, w = load(weight);
+    const Vector dx = of(c.points.position[0]) - x, dy = of(c.points.position[1]) - y, w = load(weight);
     const Vector gx = w * dx, gy = w * dy;
-    const Vector xx = of(c.stress[0]), yy = of(c.stress[1]), xy = of(c.stress[2]);
+    const Vector xx = of(c.points.stress[0]), yy = of(c.points.stress[1]), xy = of(c.points.stress[2]);
     xx_x += xx * gx, xx_y += xx * gy;
     xy_x += xy * gx, xy_y += xy * gy;
     yy_x += yy * gx, yy_y += yy * gy;
     Vector its_rho;
-    if (rho_squared || viscous) its_rho = of(c.density);
+    if (rho_squared || viscous) its_rho = of(c.points.density);
     if (rho_squared) {
-      const Vector p = of(c.pressure);
+      const Vector p = of(c.points.pressure);
       px += p * gx, py += p * gy;
       rx += its_rho * gx, ry += its_rho * gy;
     }
     if (!viscous) return;
     // As ArtificialViscosity, with one division.
-    const Vector approach = (of(c.velocity[0]) - vx) * dx + (of(c.velocity[1]) - vy) * dy;
+    const Vector approach = (of(c.points.velocity[0]) - vx) * dx + (of(c.points.velocity[1]) - vy) * dy;
     const Vector n = h * (approach < 0 ? approach : Vector{}), d = dx * dx + dy * dy + least;
-    const Vector twice = n * (2 * c.viscosity_beta * n - c.viscosity_alpha * (sound + of(c.sound)) * d);
+    const Vector twice =
+        n * (2 * c.viscosity.beta * n - c.viscosity.alpha * (sound + of(c.points.sound)) * d);
     const Vector force = its_rho * twice / ((rho + its_rho) * (d * d));
     fx += force * gx, fy += force * gy;
   }
@@ -105,16 +108,16 @@ struct Rates {
   template <class Own>
   Rates(const Arrays& arrays, Own&& own)
       : c(arrays),
-        x(own(c.position[0])),
-        y(own(c.position[1])),
-        vx(own(c.velocity[0])),
-        vy(own(c.velocity[1])) {}
+        x(own(c.points.position[0])),
+        y(own(c.points.position[1])),
+        vx(own(c.points.velocity[0])),
+        vy(own(c.points.velocity[1])) {}
 
   template <class Of>
   void add(const double* weight, Of&& of) {
     const Vector w = load(weight);
-    const Vector gx = w * (of(c.position[0]) - x), gy = w * (of(c.position[1]) - y);
-    const Vector dvx = of(c.velocity[0]) - vx, dvy = of(c.velocity[1]) - vy;
+    const Vector gx = w * (of(c.points.position[0]) - x), gy = w * (of(c.points.position[1]) - y);
+    const Vector dvx = of(c.points.velocity[0]) - vx, dvy = of(c.points.velocity[1]) - vy;
     xx += dvx * gx, xy += dvx * gy;
     yx += dvy * gx, yy += dvy * gy;
   }
@@ -165,7 +168,7 @@ void sums_over(const Arrays& c, std::int32_t number) {
 }
 
 void forces(const Arrays& c, std::int32_t stretch) {
-  const bool viscous = c.viscosity_alpha != 0 || c.viscosity_beta != 0;
+  const bool viscous = c.viscosity.alpha != 0 || c.viscosity.beta != 0;
   if (c.rho_squared)
     viscous ? sums_over<Forces<true, true>>(c, stretch) : sums_over<Forces<true, false>>(c, stretch);
   else
@@ -178,7 +181,8 @@ void rates(const Arrays& c, std::int32_t number) {
   sums_over<Rates>(c, number);
   const PairLists::Stretch stretch = c.lists->stretches[number];
   const double *lxx = c.correction[0], *lxy = c.correction[1], *lyx = c.correction[2], *lyy = c.correction[3];
-  const double *vx = c.velocity[0], *vy = c.velocity[1], *wx = c.wall_velocity[0], *wy = c.wall_velocity[1];
+  const double *vx = c.points.velocity[0], *vy = c.points.velocity[1], *wx = c.wall_velocity[0],
+               *wy = c.wall_velocity[1];
   double *xx = c.sum[Arrays::rate_xx], *xy = c.sum[Arrays::rate_xy];
   double *yx = c.sum[Arrays::rate_yx], *yy = c.sum[Arrays::rate_yy];
 #pragma omp simd
@@ -219,8 +223,8 @@ void material_step(const Arrays& c, std::int32_t first, std::int32_t last, const
                      c.sum[Arrays::rate_xy],
                      c.sum[Arrays::rate_yx],
                      c.sum[Arrays::rate_yy],
-                     c.effective_stress,
-                     c.own_density,
+                     c.soil.stress,
+                     c.soil.density,
                      0.5 * dt,
                      dt};
   const Law law = *static_cast<const Law*>(view.law);
@@ -243,7 +247,7 @@ void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const
                                      half);
     gradient[0][i] = g.xx, gradient[1][i] = g.xy, gradient[2][i] = g.yx, gradient[3][i] = g.yy;
     const double half_strain = half * g.trace();
-    c.own_density[a] *= (1 - half_strain) / (1 + half_strain);
+    c.soil.density[a] *= (1 - half_strain) / (1 + half_strain);
   }
   double* history[LawView::most_history];
   for (std::size_t k = 0; k < view.history_count; ++k) history[k] = view.history[k] + first;
@@ -251,14 +255,14 @@ void external_step(const Arrays& c, std::int32_t first, std::int32_t last, const
       {.count = count,
        .dt = dt,
        .gradient = {gradient[0], gradient[1], gradient[2], gradient[3]},
-       .stress = c.effective_stress + 4 * first,
+       .stress = c.soil.stress + 4 * first,
        .history = {history, view.history_count}});
 }
 
 void strain(const Arrays& c, std::int32_t number, double dt) {
   rates(c, number);
   const PairLists::Stretch stretch = c.lists->stretches[number];
-  for_each_soil(c.soils, stretch.first, stretch.last,
+  for_each_soil(c.soil.soils, stretch.first, stretch.last,
                 [&](std::int32_t first, std::int32_t last, const LawView& law, std::int32_t) {
                   if (law.kind == Laws::size)
                     external_step(c, first, last, law, dt);

@@ -9,6 +9,21 @@
 
 namespace porosph {
 
+/// What is summed over: of particles, then ghosts.
+struct PaperPointsView {
+  const double *position[2], *velocity[2];  ///< [m], [m/s]
+  const double *volume, *density, *sound;   ///< [m2], [kg/m3], of eq. (16) [m/s]
+  const double* stress[3];  ///< xx, yy, xy: sigma' + p_w I [Pa]; of rho_squared sigma' / rho [m2/s2]
+  const double* pressure;   ///< p_w [Pa]; read of rho_squared only
+};
+
+/// What a step changes, of particles.
+struct PaperSoilView {
+  SoilView soils;
+  double* stress;   ///< effective, four numbers each: xx, yy, zz, xy [Pa]
+  double* density;  ///< [kg/m3]
+};
+
 /// All that the loops read and write. With the raw gradient g_ab = V_b grad_a W_ab = w (x_b - x_a), all that
 /// is asked for are sums over the neighbours b of particle a, particles and ghosts: L_a of eq. (9) comes
 /// after the sum.
@@ -35,24 +50,19 @@ struct PaperArrays {
   static constexpr int sums = 12;
 
   const PairLists* lists;
-  double smoothing_length;                 ///< h [m]
-  double slope;                            ///< alpha / h^2 of the kernel [1/m4]
-  double viscosity_alpha, viscosity_beta;  ///< both 0: no artificial viscosity
+  double smoothing_length;  ///< h [m]
+  double slope;             ///< alpha / h^2 of the kernel [1/m4]
+  PaperPointsView points;
+  PaperSoilView soil;
+  struct {
+    double alpha, beta;  ///< both 0: no artificial viscosity
+  } viscosity;
   bool rho_squared;
-
-  const double *position[2], *velocity[2];  ///< of particles, then ghosts, like all that follow [m], [m/s]
-  const double *volume, *density, *sound;   ///< [m2], [kg/m3], of eq. (16) [m/s]
-  const double* stress[3];  ///< xx, yy, xy: sigma' + p_w I [Pa]; of rho_squared sigma' / rho [m2/s2]
-  const double* pressure;   ///< p_w [Pa]; read of rho_squared only
 
   const double* correction[4];     ///< L of particles: xx, xy, yx, yy
   const double* wall_velocity[2];  ///< of particles: sum over virtual neighbours of stickiness times G [1/m]
-  SoilView soils;
-  double* effective_stress;  ///< of particles, four numbers each: xx, yy, zz, xy [Pa]
-  double* own_density;       ///< of particles [kg/m3]
-
-  double* weight;     ///< w of each pair [1/m2]
-  double* sum[sums];  ///< per particle
+  double* weight;                  ///< w of each pair [1/m2]
+  double* sum[sums];               ///< per particle
 };
 
 /// One stretch of particles each.

@@ -15,8 +15,11 @@ template <class Space, SoilLaw<Space> Law, Watch watch>
 LargestChange step_of(const ConsistentArraysIn<Space>& c, const TileStep<Space>& tile, std::int32_t first,
                       std::int32_t last, const LawView& law, double elastic, std::int32_t place) {
   if constexpr (std::is_same_v<Space, Plane>)
-    if (place >= 0) return interface_step<Law, watch>(c, tile, first, last, law, place);
-  return material_step<Space, Law, watch>(tile, first, last, law, elastic);
+    if (place >= 0) {
+      const OwnSideStep side(c, tile.particle + first, place);
+      return material_step<Space, Law, watch>(tile, side, first, last, law);
+    }
+  return material_step<Space, Law, watch>(tile, OneSoilStep<Space>{elastic}, first, last, law);
 }
 
 /// Particles first to last - 1 of the tile, which have this law.
@@ -31,9 +34,9 @@ LargestChange step_by_law(const ConsistentArraysIn<Space>& c, const TileStep<Spa
       const auto stepped = [&]<Watch watch>() {
         return step_of<Space, Law, watch>(c, tile, first, last, law, elastic, place);
       };
-      change = tile.viscosity                 ? stepped.template operator()<Watch::flow>()
-               : tile.yields && law.may_yield ? stepped.template operator()<Watch::yielding>()
-                                              : stepped.template operator()<Watch::nothing>();
+      change = tile.flow.viscosity                  ? stepped.template operator()<Watch::flow>()
+               : tile.state.yields && law.may_yield ? stepped.template operator()<Watch::yielding>()
+                                                    : stepped.template operator()<Watch::nothing>();
     }
   });
   return change;
@@ -46,7 +49,7 @@ void keep_for_neighbours(const FluxViewIn<Space>& f, const TileRange& tile, cons
     if (f.listed[a])
       for (int k = 0; k < size; ++k) f.records[a].q[k] = f.flux[k][a];
     if (f.mirrored[a])
-      for (int k = 0; k < size; ++k) f.piola[size * a + k] = piola[k].value[a - tile.first];
+      for (int k = 0; k < size; ++k) f.piola[k][a] = piola[k].value[a - tile.first];
   }
 }
 

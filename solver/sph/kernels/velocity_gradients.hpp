@@ -64,20 +64,60 @@ inline void own_rates(const ConsistentArraysIn<Space>& c, const Pair* g, std::in
   }
 }
 
-/// What closed gradients add: sum_b (v_b - v_a) (x) w_ab (kappa_b - kappa_a).
+/// What closed gradients add: sum_b (v_b - v_a) (x) w_ab (kappa_b - kappa_a), of a stretch.
+template <class Space, class Piece>
+void shared_closing_rates(const ConsistentArraysIn<Space>& c, const Piece& piece, std::int32_t first,
+                          Row* out) {
+  constexpr int dim = Space::dim;
+  const auto& s = *c.reference.stencils;
+  const auto stretch = s.stretches[piece.stretch];
+  by_vectors(piece, stretch, [&](std::int32_t a) {
+    Vector sum[dim][dim]{}, change[dim];
+    for (std::int32_t k = stretch.pairs + 1; k < stretch.pairs_end; ++k) {
+      const std::int32_t b = a + s.offset[k];
+      for (int j = 0; j < dim; ++j)
+        change[j] = s.shared[k].w * (load(c.reference.kappa[j] + b) - load(c.reference.kappa[j] + a));
+      for (int i = 0; i < dim; ++i) {
+        const Vector v = load(c.motion.velocity[i] + b) - load(c.motion.velocity[i] + a);
+        for (int j = 0; j < dim; ++j) sum[i][j] += v * change[j];
+      }
+    }
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) store(out[dim * i + j].of(a, first), sum[i][j]);
+  });
+}
+
+/// The same of a particle with a list of its own.
+template <class Space, class Pair>
+inline void own_closing_rates(const ConsistentArraysIn<Space>& c, const Pair* g, std::int32_t a,
+                              std::int32_t first, Row* out) {
+  constexpr int dim = Space::dim;
+  const auto& s = *c.reference.stencils;
+  double sum[2][dim][dim]{};
+  const auto add = [&](std::int64_t k, double(&to)[dim][dim]) {
+    const std::int32_t b = s.index[k];
+    for (int j = 0; j < dim; ++j) {
+      const double change = g[k].w * (c.reference.kappa[j][b] - c.reference.kappa[j][a]);
+      for (int i = 0; i < dim; ++i) to[i][j] += change * (c.motion.velocity[i][b] - c.motion.velocity[i][a]);
+    }
+  };
+  std::int64_t k = s.begin[a] + 1;
+  const std::int64_t last = s.begin[a + 1];
+  for (; k + 1 < last; k += 2) add(k, sum[0]), add(k + 1, sum[1]);
+  if (k < last) add(k, sum[0]);
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) *out[dim * i + j].of(a, first) = sum[0][i][j] + sum[1][i][j];
+}
+
 template <class Space>
 void add_closing_rates(const ConsistentArraysIn<Space>& c, const TileRange& tile, Row* rate) {
-  constexpr int dim = Space::dim;
-  for (std::int32_t a = tile.first; a < tile.last; ++a) {
-    typename Components<dim>::Type sum[dim]{};
-    const auto own = vector_of<dim>(c.reference.kappa, a);
-    c.reference.stencils->for_neighbours(a, [&](std::int32_t b, const auto& g) {
-      const auto k = g.w * (vector_of<dim>(c.reference.kappa, b) - own);
-      for (int i = 0; i < dim; ++i) sum[i] += k * (c.motion.velocity[i][b] - c.motion.velocity[i][a]);
-    });
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j) *rate[dim * i + j].of(a, tile.first) += sum[i][j];
-  }
+  Row closing[matrix_size<Space>];
+  for_each_piece(
+      *c.reference.stencils, tile,
+      [&](const auto& piece) { shared_closing_rates(c, piece, tile.first, closing); },
+      [&](const auto* pairs, std::int32_t a) { own_closing_rates(c, pairs, a, tile.first, closing); });
+  for (int k = 0; k < matrix_size<Space>; ++k)
+    for (std::int32_t i = 0; i < tile.last - tile.first; ++i) rate[k].value[i] += closing[k].value[i];
 }
 
 /// Entry i of the rows times L^T. In a function of its own: see particle_step.
@@ -100,7 +140,7 @@ inline void tile_rates(const ConsistentArraysIn<Space>& c, const TileRange& tile
   const std::int32_t count = tile.last - tile.first;
 #pragma omp simd
   for (std::int32_t i = 0; i < count; ++i) correct<Space>(rows, correction, i);
-  if (c.reference.kappa) add_closing_rates(c, tile, rate);
+  if (c.reference.kappa[0]) add_closing_rates(c, tile, rate);
   if constexpr (has_hoop<Space>)
     for (std::int32_t a = tile.first; a < tile.last; ++a)
       *rate[matrix_size<Space>].of(a, tile.first) = c.motion.velocity[0][a] / c.reference.radius[a];

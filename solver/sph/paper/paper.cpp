@@ -96,10 +96,10 @@ void PaperDynamics::connect_arrays() {
   PaperArrays& c = arrays_;
   c.smoothing_length = kernel_.h;
   c.slope = kernel_.alpha / (kernel_.h * kernel_.h);
-  c.viscosity_alpha = viscosity_.alpha, c.viscosity_beta = viscosity_.beta;
+  c.viscosity = {viscosity_.alpha, viscosity_.beta};
   c.rho_squared = PaperForm(formulation_.motion).stress_over_rho_squared;
   for (int k = 0; k < 2; ++k) c.wall_velocity[k] = walls_.velocity(k);
-  points_.connect(c);
+  points_.connect(c.points);
   sums_.connect(c);
 }
 
@@ -222,9 +222,7 @@ void PaperDynamics::velocity_gradients(std::span<Mat2> out) {
 void PaperDynamics::strain(double dt) {
   stop_.stepped(dt);
   points_.take_velocities(model_.particles);
-  arrays_.soils = soils_.view();
-  arrays_.effective_stress = &model_.particles.stress.data()->xx;
-  arrays_.own_density = model_.particles.density.data();
+  arrays_.soil = {soils_.view(), &model_.particles.stress.data()->xx, model_.particles.density.data()};
 #pragma omp parallel for schedule(static)
   for (std::int32_t stretch = 0; stretch < sums_.lists.count(); ++stretch)
     kernels_.strain(arrays_, stretch, dt);

@@ -75,7 +75,7 @@ void PaperPoints::take_stress(const Model& model, bool over_density) {
   for (std::size_t i = 0; i < places_.size(); ++i) xx[i] += pressure[i], yy[i] += pressure[i];
 }
 
-void PaperPoints::connect(PaperArrays& c) const {
+void PaperPoints::connect(PaperPointsView& c) const {
   for (int k = 0; k < 2; ++k) c.position[k] = position_[k].data(), c.velocity[k] = velocity_[k].data();
   c.volume = volume_.data(), c.density = density_.data(), c.sound = sound_.data();
   for (int k = 0; k < 3; ++k) c.stress[k] = stress_[k].data();

@@ -30,7 +30,7 @@ class PaperPoints {
   double volume(std::size_t i) const { return volume_[i]; }
   double density(std::size_t i) const { return density_[i]; }
   double sound(std::size_t i) const { return sound_[i]; }
-  void connect(PaperArrays& arrays) const;
+  void connect(PaperPointsView& points) const;
 
  private:
   std::vector<Vec2> places_;

@@ -151,7 +151,7 @@ TEST_CASE("a state of something else is refused", "[checkpoint]") {
   StateReader reader(writer.content());
   CHECK_THROWS_WITH(large.visit(reader), Contains("'position'"));
   StateReader empty("");
-  CHECK_THROWS_WITH(small.visit(empty), Contains("ends before 'taken_over'"));
+  CHECK_THROWS_WITH(small.visit(empty), Contains("ends before 'step'"));
   StateReader longer(writer.content());
   CHECK_THROWS_AS(longer.finish(), StateError);
 }

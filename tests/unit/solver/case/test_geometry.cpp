@@ -161,11 +161,14 @@ TEST_CASE("gravity needs a boundary for each body") {
   CHECK(
       errors_with(apart) ==
       "box.toml:20:1: key 'soil[1]': soil 'clay' falls: gravity is applied and its body has no boundary that "
-      "carries it, a fixed one or a roller that is not upright");
+      "carries it, a fixed one or a roller that is not upright, and no soil below to land on");
   CHECK_THAT(errors_with(apart + boundary("[5, 0]", "[5, 2]")), Contains("soil 'clay' falls"));
   CHECK(errors_with(apart + boundary("[5, 0]", "[5, 2]", "fixed")).empty());
   CHECK(errors_with(apart + "[loading]\ngravity_applied = false\n").empty());
   CHECK(errors_with(apart + boundary("[5, 0]", "[6, 0]")).empty());
+  CHECK(errors_with(soil("clay", "[[1, 4], [2, 4], [2, 5], [1, 5]]")).empty());  // lands on the sand
+  CHECK_THAT(errors_with(soil("clay", "[[1, -4], [2, -4], [2, -3], [1, -3]]")),
+             Contains("soil 'clay' falls"));
 }
 
 TEST_CASE("soils keep clear of each other or touch") {

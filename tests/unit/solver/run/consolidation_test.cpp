@@ -45,8 +45,7 @@ struct Column {
   explicit Column(const Case& scene_) : scene(scene_), model(build_model(scene)) {
     dynamics = make_dynamics(scene.formulation, model);
     const double dt = 0.9 * model.smoothing_length / model.wave_speed;
-    water = std::make_unique<Consolidation>(scene, model, *dynamics, std::span<const LoadedParticles>(),
-                                            std::span<Footing>(), dt);
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, surface, dt);
   }
   double modulus() const { return model.soils[0].constrained_modulus(); }
   double buoyant() const { return scene.soils[0].unit_weight_saturated - scene.water.unit_weight; }
@@ -80,6 +79,7 @@ struct Column {
   Case scene;
   Model model;
   std::unique_ptr<Dynamics> dynamics;
+  SurfaceForces surface;
   std::unique_ptr<Consolidation> water;
   double now = 0;
 };
@@ -165,11 +165,10 @@ Case strip(double stabilisation, double spacing) {
 
 struct Loaded {
   explicit Loaded(const Case& scene_) : scene(scene_), model(build_model(scene)) {
-    loads = surface_loads(scene, model);
-    footings = make_footings(scene, model);
+    surface = surface_forces(scene, model);
     dynamics = make_dynamics(scene.formulation, model);
     const double dt = 0.9 * model.smoothing_length / model.wave_speed;
-    water = std::make_unique<Consolidation>(scene, model, *dynamics, loads, footings, dt);
+    water = std::make_unique<Consolidation>(scene, model, *dynamics, surface, dt);
   }
   /// Of the excess pressures below the third row, what alternates from row to row over all: sixth
   /// differences, in which alternation alone stays as it is.
@@ -199,8 +198,7 @@ struct Loaded {
 
   Case scene;
   Model model;
-  std::vector<LoadedParticles> loads;
-  std::vector<Footing> footings;
+  SurfaceForces surface;
   std::unique_ptr<Dynamics> dynamics;
   std::unique_ptr<Consolidation> water;
 };
@@ -281,7 +279,7 @@ TEST_CASE("a footing on soil that keeps its water presses on the water alone", "
   scene.time.end = 1;
   Loaded soil(scene);
   for (double now = 0; now < 1;) now = soil.water->advance(now, 1);
-  CHECK(soil.footings[0].force() == Approx(40e3).epsilon(1e-4));
+  CHECK(soil.surface.footings[0].force() == Approx(40e3).epsilon(1e-4));
   for (const double h : soil.water->head()) CHECK(h * 9.81e3 == Approx(10e3).epsilon(0.002));
 }
 

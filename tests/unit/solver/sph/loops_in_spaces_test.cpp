@@ -72,8 +72,9 @@ struct Block {
     for (auto& c : correction) c.resize(n);
     for (auto& v : velocity) v.assign(n, 0);
     for (auto& f : flux) f.assign(n, 0);
+    for (auto& p : piola) p.resize(n);
     for (int k = 0; k < gradients; ++k) deformation[k].assign(n, k == matrix || k % (dim + 1) == 0 ? 1 : 0);
-    stress.resize(n), piola.resize(matrix * n), listed.assign(n, 1), records.resize(n);
+    stress.resize(n), listed.assign(n, 1), records.resize(n);
     accelerations.resize(dim * n);
     for (std::size_t a = 0; a < n; ++a) {
       radius[a] = points[a][0];
@@ -116,7 +117,8 @@ struct Block {
     ranges = {{0, n, 0, -1}};
     ConsistentArraysIn<Space> c{};
     for (int k = 0; k < matrix; ++k)
-      c.reference.correction[k] = correction[k].data(), c.fluxes.flux[k] = flux[k].data();
+      c.reference.correction[k] = correction[k].data(), c.fluxes.flux[k] = flux[k].data(),
+      c.fluxes.piola[k] = piola[k].data();
     for (int k = 0; k < gradients; ++k) c.state.deformation[k] = deformation[k].data();
     for (int d = 0; d < dim; ++d) c.motion.velocity[d] = c.motion.controlled[d] = velocity[d].data();
     c.reference.stencils = &stencils, c.reference.density = reference_density.data();
@@ -125,7 +127,7 @@ struct Block {
     c.state.soils = {ranges.data(), 1, laws.data()};
     c.state.stress = &stress.front().xx, c.state.density = present_density.data();
     c.fluxes.listed = listed.data(), c.fluxes.mirrored = listed.data(), c.fluxes.records = records.data();
-    c.fluxes.piola = piola.data(), c.fluxes.hoop = hoop.data();
+    c.fluxes.hoop = hoop.data();
     c.control = {viscosity, &no_spring, 0};
     for (std::size_t a = 0; a < points.size(); ++a)
       records[a].q[RecordIn<Space>::viscosity] = viscosity * (has_hoop<Space> ? radius[a] : 1);
@@ -146,8 +148,8 @@ struct Block {
 
   std::vector<VectorIn<Space>> points;
   PairStencilsIn<Space> stencils;
-  Numbers reference_density, present_density, fill, radius, hoop, pressure, piola, accelerations;
-  Numbers correction[matrix], velocity[dim], deformation[gradients], flux[matrix];
+  Numbers reference_density, present_density, fill, radius, hoop, pressure, accelerations;
+  Numbers correction[matrix], velocity[dim], deformation[gradients], flux[matrix], piola[matrix];
   std::vector<Symmetric<Space>> stress;
   std::vector<std::uint8_t> listed;
   std::vector<RecordIn<Space>> records;
@@ -232,8 +234,7 @@ TEMPLATE_TEST_CASE("an elastic step of the loops gives the exact stress in every
     stress_error = std::max(stress_error, (in_space(soil.stress[a]) - stress).cwiseAbs().maxCoeff());
     density_error = std::max(density_error, std::abs(soil.present_density[a] - density / f.determinant()));
     for (int k = 0; k < soil.matrix; ++k)
-      piola_error = std::max(piola_error,
-                             std::abs(soil.piola[soil.matrix * a + k] - piola(k / soil.dim, k % soil.dim)));
+      piola_error = std::max(piola_error, std::abs(soil.piola[k][a] - piola(k / soil.dim, k % soil.dim)));
     if (has_hoop<TestType>) piola_error = std::max(piola_error, std::abs(soil.hoop[a] - piola(2, 2)));
   }
   CHECK(stress_error < 1e-9 * stress.norm());
@@ -256,9 +257,8 @@ TEMPLATE_TEST_CASE("uniform stress accelerates particles of a lattice as it shou
     ++inside;
     VectorIn<TestType> expected = soil.gravity;
     if (has_hoop<TestType>) {  // what the radius adds to the divergence
-      const double* p = soil.piola.data() + 4 * a;
-      expected[0] += (p[0] - soil.hoop[a]) / (soil.radius[a] * density);
-      expected[1] += p[2] / (soil.radius[a] * density);
+      expected[0] += (soil.piola[0][a] - soil.hoop[a]) / (soil.radius[a] * density);
+      expected[1] += soil.piola[2][a] / (soil.radius[a] * density);
     }
     worst = std::max(worst, (soil.accelerated(c, a) - expected).norm());
   }
