@@ -186,7 +186,7 @@ void print_stages(const Case& scene, double seconds_per_particle_step) {
   StagePlan plan(scene);
   double seconds = 0;
   for (double start = 0;; start = plan.scene().time.end, plan.go_on(start)) {
-    const Simulation s(plan.scene(), {.time = start});
+    const Simulation s(plan.scene(), Beginning{.time = start});
     const auto particles = static_cast<double>(s.model().particles.size());
     const auto changes = plan.changes();
     print(plan.stage() == 0 ? "stages" : "",

@@ -13,6 +13,7 @@
 #include "solver/reference/fem/demand.hpp"
 #include "solver/reference/fem/solve.hpp"
 #include "solver/run/probe.hpp"
+#include "solver/space/place_text.hpp"
 #include "solver/water/standing_water.hpp"
 #include "vtk_io/fem_mesh.hpp"
 #include "vtk_io/fem_vtu.hpp"
@@ -59,8 +60,8 @@ void tell(const Case& scene, const FemSolution& solution) {
              solution.unknowns, solution.seconds, solution.rounding);
   for (const ProbeCase& probe : scene.probes) {
     const FemPoint p = solution.at(probe.position);
-    fmt::print("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", probe.name, probe.position.x(),
-               probe.position.y(), p.effective_stress[1] / 1e3, p.displacement.y() * 1e3);
+    fmt::print("{} {}: sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm\n", probe.name, place_text(probe.position),
+               p.effective_stress[1] / 1e3, p.displacement.y() * 1e3);
   }
   if (const double tension = largest_mean_tension(scene, solution); tension > 0)
     fmt::print(

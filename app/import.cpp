@@ -13,6 +13,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/case/units.hpp"
 #include "solver/printable.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
@@ -141,8 +142,7 @@ void tell(const drawn::Ground& ground, const drawn::Drawing& drawing, const std:
   say(stdout, ground.supports.empty() ? "support fixed base and rollers at both ends, as none is drawn\n"
                                       : fmt::format("support {} as drawn\n", ground.supports.size()));
   for (const ProbeCase& probe : ground.probes)
-    say(stdout,
-        fmt::format("probe   {} at ({:g}, {:g}) m\n", probe.name, probe.position.x(), probe.position.y()));
+    say(stdout, fmt::format("probe   {} at {} m\n", probe.name, place_text(probe.position)));
   for (const std::string& note : ground.notes) say(stdout, "note: " + printable(note) + "\n");
 }
 

@@ -12,6 +12,7 @@
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
 #include "render/run/shown_field.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
@@ -88,8 +89,8 @@ SectionLine line_of(const Options& o) {
   line.points.push_back(read_point("--to", o.to));
   for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
     if (line.points[i] == line.points[i + 1])
-      throw UsageError(fmt::format("the section has the point ({:g}, {:g}) twice in a row",
-                                   line.points[i].x(), line.points[i].y()));
+      throw UsageError(
+          fmt::format("the section has the point {} twice in a row", place_text(line.points[i])));
   return line;
 }
 

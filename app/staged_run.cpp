@@ -57,7 +57,7 @@ void visit_safety(StateArchive& state, std::optional<Summary::Safety>& safety) {
   bool is_there = safety.has_value();
   state.value("stage_safety", is_there);
   if (!is_there) return safety.reset();
-  if (state.restoring()) safety.emplace();
+  if (state.restoring()) safety = Summary::Safety{};
   state.value("stable_at", safety->stable_at);
   state.value("fails_at", safety->fails_at);
   state.value("limit_equilibrium", safety->limit_equilibrium);

@@ -12,6 +12,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
+#include "solver/space/place_text.hpp"
 #include "solver/sph/consistent/consistent.hpp"
 #include "vtk_io/run_folder/safety_files.hpp"
 
@@ -231,8 +232,8 @@ std::string tell(const Summary& s) {
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
   if (s.zigzag && s.zigzag->rms > 0)
     text += fmt::format(
-        "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at ({:g}, {:g})\n",
-        s.zigzag->rms, 1e3 * s.zigzag->largest, s.zigzag->x, s.zigzag->y);
+        "zigzag of displacements {:.2g} of the difference of neighbours, at most {:.3g} mm at {}\n",
+        s.zigzag->rms, 1e3 * s.zigzag->largest, place_text({s.zigzag->x, s.zigzag->y}));
   if (s.energy && s.energy->released > 0) text += tell(*s.energy);
   if (s.seepage) text += tell(*s.seepage);
   if (s.consolidation) text += tell(*s.consolidation);
@@ -241,10 +242,10 @@ std::string tell(const Summary& s) {
   text += tell(s.stages);
   for (const auto& [name, probe] : s.probes)
     if (std::isnan(probe.values.at("Displacement_Y")))
-      text += fmt::format("{} ({:g}, {:g}): in soil that is not there\n", name, probe.x, probe.y);
+      text += fmt::format("{} {}: in soil that is not there\n", name, place_text({probe.x, probe.y}));
     else
-      text += fmt::format("{} ({:g}, {:g}): sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name, probe.x,
-                          probe.y, probe.values.at("EffectiveStress_YY") / 1e3,
+      text += fmt::format("{} {}: sigma'_yy = {:.3f} kPa, u_y = {:.3f} mm{}\n", name,
+                          place_text({probe.x, probe.y}), probe.values.at("EffectiveStress_YY") / 1e3,
                           probe.values.at("Displacement_Y") * 1e3, beside_finite_elements(s, name));
   for (const auto& [name, f] : s.footings)
     text += fmt::format("{}: {:.5g} kN/m, {:.3g} kN/m along it, settled {:.4g} mm\n", name, f.force / 1e3,

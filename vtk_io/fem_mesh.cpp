@@ -17,6 +17,7 @@
 
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/mesh_points.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -163,8 +164,8 @@ std::vector<std::array<int, 3>> triangulate_with_edges(MeshPoints& mesh, double 
     }
   }
   const Point& at = mesh.points[mesh.edges[lost.front()][0]];
-  throw std::runtime_error(fmt::format(
-      "mesh: the triangulation lost the line at ({:.6g}, {:.6g}); try another edge length", at.x(), at.y()));
+  throw std::runtime_error(
+      fmt::format("mesh: the triangulation lost the line at {}; try another edge length", place_text(at)));
 }
 
 void check_area(const Case& scene, const Mesh& mesh) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solver/case/shapes.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph::drawn {
 namespace {
@@ -47,19 +48,19 @@ void add_line(const Polygon& line, double snap, Ground& ground) {
     const bool level = std::abs(a.y() - b.y()) <= snap;
     if (level) add_level(a, b, snap, ground.water, goes_on);
     if (!level && !is_below_ground((a + b) / 2, snap, ground))
-      throw DrawingError(fmt::format(
-          "water falls from ({:g}, {:g}) to ({:g}, {:g}) m above the ground: only level water can "
-          "stand there",
-          a.x(), a.y(), b.x(), b.y()));
+      throw DrawingError(
+          fmt::format("water falls from {} to {} m above the ground: only level water can "
+                      "stand there",
+                      place_text(a), place_text(b)));
     goes_on = level;
     falls = falls || !level;
   }
   if (falls)
     ground.notes.push_back(
-        fmt::format("water falls from ({:g}, {:g}) to ({:g}, {:g}) m: taken as steady flow between the "
+        fmt::format("water falls from {} to {} m: taken as steady flow between the "
                     "levels at its ends; "
                     "the case computes the water table between them, which need not be the one drawn",
-                    line.front().x(), line.front().y(), line.back().x(), line.back().y()));
+                    place_text(line.front()), place_text(line.back())));
 }
 
 /// Bottom and top of the soil at an end of the section.

@@ -9,6 +9,7 @@
 #include "app/import/drawn_water.hpp"
 #include "app/import/meeting_outlines.hpp"
 #include "solver/case/outline_edges.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph::drawn {
 namespace {
@@ -284,8 +285,8 @@ Ground ground_of(const Drawing& drawing, const Options& options) {
   std::erase_if(ground.probes, [&](const ProbeCase& probe) {
     const bool outside = !is_in_soil(probe.position, ground.soils);
     if (outside)
-      ground.notes.push_back(fmt::format("probe '{}' at ({:g}, {:g}) m: left out, as it is not in a soil",
-                                         probe.name, probe.position.x(), probe.position.y()));
+      ground.notes.push_back(fmt::format("probe '{}' at {} m: left out, as it is not in a soil", probe.name,
+                                         place_text(probe.position)));
     return outside;
   });
   return ground;

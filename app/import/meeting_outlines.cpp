@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/import/drawing.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph::drawn {
 namespace {
@@ -102,10 +103,10 @@ void require_apart(const Polygon& hole, const std::string& name, const Region& a
     for (const Point& p : hole)
       if (std::ranges::find(around.rings[k], p) != around.rings[k].end())
         throw DrawingError(
-            fmt::format("'{}' surrounds '{}' and another soil, which touch each other at ({:g}, {:g}) m: "
+            fmt::format("'{}' surrounds '{}' and another soil, which touch each other at {} m: "
                         "leave it out (--skip "
                         "LAYER) or draw it without them",
-                        around.name, name, p.x(), p.y()));
+                        around.name, name, place_text(p)));
 }
 
 /// The smallest other region around this one.

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <set>
 
+#include "solver/space/place_text.hpp"
+
 namespace porosph::drawn {
 namespace {
 
 constexpr std::size_t most_named = 5;  // gaps in one message
 
-std::string text_of(const Point& p) { return fmt::format("({:.7g}, {:.7g})", p.x(), p.y()); }
-std::string text_of(const Label& label) { return fmt::format("'{}' at {}", label.text, text_of(label.at)); }
+std::string text_of(const Label& label) {
+  return fmt::format("'{}' at {}", label.text, place_text(label.at));
+}
 
 bool is_in(const Point& p, const std::vector<Polygon>& rings) {
   return is_inside(p, rings[0]) && std::none_of(rings.begin() + 1, rings.end(),
@@ -81,7 +84,7 @@ class Namer {
     for (const Label& told : drawn_.told)
       if (!is_enclosed(told))
         throw DrawingError(
-            fmt::format("{} m is in no region that lines enclose{}", drawn::text_of(told.at), gaps()));
+            fmt::format("{} m is in no region that lines enclose{}", place_text(told.at), gaps()));
     for (const auto& rings : found_.rings)
       if (const std::string name = name_of(rings); !name.empty()) named_.regions.push_back({name, rings});
     look_for_names_outside();
@@ -126,7 +129,7 @@ class Namer {
 
   std::string text_of(const Gap& gap) const {
     return fmt::format(
-        "a line on layer '{}' ends at {} m{}", layer_at(gap.at), drawn::text_of(gap.at),
+        "a line on layer '{}' ends at {} m{}", layer_at(gap.at), place_text(gap.at),
         gap.width < 0 ? std::string() : fmt::format(", {:.3g} m from the next one", gap.width));
   }
 
@@ -163,9 +166,9 @@ class Namer {
       throw DrawingError(
           fmt::format("texts {} and {} m are in one region{}. Where both belong there, --skip LAYER leaves "
                       "out those of a "
-                      "layer ('{}', '{}'), and --name {:.7g},{:.7g}=SOIL names the region",
+                      "layer ('{}', '{}'), and --name {},{}=SOIL names the region",
                       drawn::text_of(texts[0]), drawn::text_of(text), gaps(), texts[0].layer, text.layer,
-                      texts[0].at.x(), texts[0].at.y()));
+                      coordinate_text(texts[0].at.x()), coordinate_text(texts[0].at.y())));
     }
     if (!texts.empty()) return texts[0].text;
     const Point inside = point_in(rings);
@@ -177,8 +180,9 @@ class Namer {
     if (around != nullptr) return around->name;
     throw DrawingError(fmt::format(
         "no text names the region around {0} m, of {1:.3g} m2 and about {2:.2g} m wide: put one there, or "
-        "--name {3:.7g},{4:.7g}=SOIL does, or --empty {3:.7g},{4:.7g} where no soil is{5}",
-        drawn::text_of(inside), area_of(rings), width_of(rings), inside.x(), inside.y(),
+        "--name {3},{4}=SOIL does, or --empty {3},{4} where no soil is{5}",
+        place_text(inside), area_of(rings), width_of(rings), coordinate_text(inside.x()),
+        coordinate_text(inside.y()),
         width_of(rings) < 20 * snap_
             ? "; a sliver between two lines that are meant to be one goes by a wider "
               "--snap"

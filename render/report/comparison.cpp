@@ -10,6 +10,7 @@
 #include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/csv.hpp"
 
@@ -279,8 +280,8 @@ std::string relative_text(double relative_l2) {
 
 std::string largest_text(const FieldNorms& n) {
   const ShownUnit unit = shown_unit(n.field.name, n.max_abs);
-  return fmt::format("{:.3g} {} at ({:.4g}, {:.4g}) m", n.max_abs * unit.factor, unit.name, n.where.x(),
-                     n.where.y());
+  return fmt::format("{:.3g} {} at {} m", n.max_abs * unit.factor, unit.name,
+                     place_text({n.where.x(), n.where.y()}));
 }
 
 }  // namespace porosph

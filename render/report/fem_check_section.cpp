@@ -6,6 +6,7 @@
 
 #include "render/report/html.hpp"
 #include "render/run/shown_field.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -21,9 +22,8 @@ std::string table_of(const FemCheck& check) {
       const FieldSelection selection{field.substr(0, underscore), field.substr(underscore + 1)};
       const ShownUnit unit = shown_unit(selection.name, d.max_abs);
       rows.push_back({name, shown_label(selection, {}), percent(d.relative_l2), percent(d.relative),
-                      percent(d.local), fmt::format("({:.4g}, {:.4g})", d.local_x, d.local_y),
-                      fmt::format("{:.3g} {}", d.max_abs * unit.factor, unit.name),
-                      fmt::format("({:.6g}, {:.6g})", d.x, d.y)});
+                      percent(d.local), place_text({d.local_x, d.local_y}),
+                      fmt::format("{:.3g} {}", d.max_abs * unit.factor, unit.name), place_text({d.x, d.y})});
     }
   return html::table(rows);
 }

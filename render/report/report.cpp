@@ -17,6 +17,7 @@
 #include "render/report/study.hpp"
 #include "render/run/run_panel.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
@@ -294,8 +295,7 @@ std::string difference_sections(const Material& m) {
   if (m.input.fem) {
     std::string text = "<p>Relative L2 norm over the particles, and the largest difference.";
     for (const LeftOut& o : m.input.left_out)
-      text += html::escaped(
-          fmt::format(" Left out: {:g} m around ({:g}, {:g}) m.", o.radius, o.at.x(), o.at.y()));
+      text += html::escaped(fmt::format(" Left out: {:g} m around {} m.", o.radius, place_text(o.at)));
     body += html::section("Differences from finite elements",
                           text + "</p>\n" + html::table(fem_table(m.runs, m.fem)));
   }

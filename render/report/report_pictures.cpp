@@ -12,6 +12,7 @@
 #include "render/run/section_chart.hpp"
 #include "render/run/stress_paths.hpp"
 #include "render/run/water_curves.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph {
@@ -283,13 +284,12 @@ std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, cons
         {.label = "finite elements", .y = fem.values(field, {probe.position})[0] * unit.factor});
     charts.push_back(std::move(chart));
   }
-  return draw(
-      ChartFigure{
-          .title = fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y()),
-          .charts = charts,
-          .columns = 2},
-      folder, "history_" + file_name(probe.name), "Effective stresses over time at probe " + probe.name,
-      fmt::format("Effective stresses at {}, and what finite elements give at rest.", probe.name));
+  return draw(ChartFigure{.title = fmt::format("At {} {} m", probe.name, place_text(probe.position)),
+                          .charts = charts,
+                          .columns = 2},
+              folder, "history_" + file_name(probe.name),
+              "Effective stresses over time at probe " + probe.name,
+              fmt::format("Effective stresses at {}, and what finite elements give at rest.", probe.name));
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include "render/run/history_lines.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -44,9 +45,9 @@ std::string face_text(const HydraulicFaceCase& face) {
                      : face.kind == FaceKind::flux    ? "flux"
                                                       : "closed";
   const std::string level = face.kind == FaceKind::head ? fmt::format(" {:g} m", face.level) : "";
-  const std::string place = face.everywhere() ? "the whole outline"
-                                              : fmt::format("({:g}, {:g}) to ({:g}, {:g}) m", face.from.x(),
-                                                            face.from.y(), face.to.x(), face.to.y());
+  const std::string place = face.everywhere()
+                                ? "the whole outline"
+                                : fmt::format("{} to {} m", place_text(face.from), place_text(face.to));
   return fmt::format("{}{}, {}", kind, level, place);
 }
 

@@ -9,6 +9,7 @@
 #include "solver/reference/exact/dynamic_column.hpp"
 #include "solver/reference/exact/finite_strain_column.hpp"
 #include "solver/run/reference_errors.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 
@@ -87,12 +88,11 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
   std::vector<Chart> charts;
   if (!runs.front().scene) return charts;
   for (const ProbeCase& probe : runs.front().scene->probes) {
-    Chart chart{
-        .title = fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y()),
-        .x = {.title = "t [s]"},
-        .y = {.title = shown_label(field, unit)},
-        .series = {},
-        .references = {}};
+    Chart chart{.title = fmt::format("At {} {} m", probe.name, place_text(probe.position)),
+                .x = {.title = "t [s]"},
+                .y = {.title = shown_label(field, unit)},
+                .series = {},
+                .references = {}};
     std::optional<ChartSeries> exact;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       auto line = history_line(runs[i], probe.name, field.text(), unit.factor);

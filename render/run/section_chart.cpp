@@ -9,6 +9,7 @@
 #include "render/run/history_lines.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/analysis/exact_state.hpp"
+#include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/csv.hpp"
 
 namespace porosph {
@@ -139,8 +140,7 @@ std::string SectionLine::text() const {
   if (kind == vertical) return fmt::format("x = {:g} m", at);
   if (kind == level) return fmt::format("y = {:g} m", at);
   std::string text;
-  for (const Point& p : points)
-    text += fmt::format("{}({:g}, {:g})", text.empty() ? "" : " to ", p.x(), p.y());
+  for (const Point& p : points) text += (text.empty() ? "" : " to ") + place_text(p);
   return text + " m";
 }
 
@@ -155,10 +155,9 @@ RunSection section_of(const FinishedRun& run, const std::string& label, const Fr
   if (line.kind == SectionLine::level) section.origin = way.front().x();
   section.pieces = cut(frame, run.scene ? &*run.scene : nullptr, way, points, fields);
   if (section.pieces.empty())
-    throw NoSoil(fmt::format(
-        "the section {} does not meet the soil of {}, which lies between ({:.6g}, {:.6g}) and ({:.6g}, "
-        "{:.6g}) m",
-        line.text(), run.folder.string(), extent.low.x(), extent.low.y(), extent.high.x(), extent.high.y()));
+    throw NoSoil(fmt::format("the section {} does not meet the soil of {}, which lies between {} and {} m",
+                             line.text(), run.folder.string(), place_text(extent.low),
+                             place_text(extent.high)));
   return section;
 }
 

@@ -9,6 +9,7 @@
 #include "render/run/history_lines.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/output/invariants.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -114,8 +115,7 @@ ChartSeries level_plane(const Stress& stress, std::size_t run) {
 }
 
 Chart empty_chart(PathKind kind, const ProbeCase& probe) {
-  const std::string place =
-      fmt::format("At {} ({:g}, {:g}) m", probe.name, probe.position.x(), probe.position.y());
+  const std::string place = fmt::format("At {} {} m", probe.name, place_text(probe.position));
   switch (kind) {
     case PathKind::pq:
       return {.title = place + ": q over p'",

@@ -23,7 +23,8 @@ Vec2 normal_by_soil(const Wall& wall, double range, const std::function<bool(con
   return balance > 0 ? left : balance < 0 ? Vec2(-left) : Vec2(Vec2::Zero());
 }
 
-Vec2 normal_towards(const Wall& wall, std::span<const Vec2> points, double range) {
+/// `number`: of the boundary in its case.
+Vec2 normal_towards(const Wall& wall, std::size_t number, std::span<const Vec2> points, double range) {
   const Vec2 tangent = (wall.to - wall.from).normalized();
   Wall left = wall, right = wall;
   left.normal = Vec2(-tangent.y(), tangent.x());
@@ -37,8 +38,7 @@ Vec2 normal_towards(const Wall& wall, std::span<const Vec2> points, double range
   };
   const double on_left = nearest(left), on_right = nearest(right);
   if (on_left == never && on_right == never)
-    throw std::runtime_error(fmt::format("boundary from ({}, {}) to ({}, {}) touches no soil particle",
-                                         wall.from.x(), wall.from.y(), wall.to.x(), wall.to.y()));
+    throw std::runtime_error(fmt::format("boundary[{}] touches no soil particle", number));
   return on_left <= on_right ? left.normal : right.normal;
 }
 
@@ -82,9 +82,10 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
   std::vector<Wall> walls;
   for (const BoundaryCase& b : boundaries)
     walls.push_back({.kind = b.kind, .friction = b.coefficient, .from = b.from, .to = b.to});
-  for (Wall& wall : walls) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    Wall& wall = walls[i];
     if (in_soil) wall.normal = normal_by_soil(wall, range, in_soil);
-    if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, points, range);
+    if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, i, points, range);
     wall.bears_weight = wall.support().carries_shear() || std::abs(wall.normal.y()) > 1e-9;
   }
   const auto rank = [](const Wall& w) { return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : 2; };

@@ -13,6 +13,7 @@
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/stages.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -24,8 +25,6 @@ constexpr double longest_slit = 3;  // spacings that may be bridged at the tip o
 std::string at(std::string_view list, std::size_t i, std::string_view key = "") {
   return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
 }
-
-std::string place_text(const Point& p) { return fmt::format("({:.10g}, {:.10g})", p.x(), p.y()); }
 
 template <class T>
 void check_names(const std::vector<T>& items, std::string_view list, Issues& issues) {

@@ -7,6 +7,7 @@
 #include "solver/case/safety_obstacle.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/stages.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -57,12 +58,11 @@ Issues check_pieces(const Case& scene, const StagePlan& plan) {
   Issues issues;
   for (const SoilCase& piece : plan.whole().soils)
     if (const double width = thickness(piece.polygon); width < scene.particles.spacing * (1 - 1e-9))
-      issues.push_back(
-          {fmt::format("stage[{}].excavate_within", first),
-           fmt::format("the outlines cut soil '{}' into pieces of which one, at ({:.6g}, {:.6g}), is "
-                       "{:.4g} m thick, less than particles.spacing = {} m",
-                       scene.soils[piece.id].name, piece.polygon[0].x(), piece.polygon[0].y(), width,
-                       scene.particles.spacing)});
+      issues.push_back({fmt::format("stage[{}].excavate_within", first),
+                        fmt::format("the outlines cut soil '{}' into pieces of which one, at {}, is "
+                                    "{:.4g} m thick, less than particles.spacing = {} m",
+                                    scene.soils[piece.id].name, place_text(piece.polygon[0]), width,
+                                    scene.particles.spacing)});
   return issues;
 }
 

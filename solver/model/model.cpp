@@ -102,10 +102,12 @@ std::vector<Wall> walls_of(const Case& scene, std::span<const Vec2> points) {
   });
 }
 
-std::shared_ptr<FlowingWater> flowing_water(const Case& scene, const Particles& particles) {
+std::shared_ptr<FlowingWater> flowing_water(const Case& scene, const Particles& particles,
+                                            const Vec2& origin) {
   if (scene.water.mode == WaterMode::steady || scene.flow)
-    return std::make_shared<SteadyWater>(scene, particles);
-  if (scene.water.mode == WaterMode::transient) return std::make_shared<TransientWater>(scene, particles);
+    return std::make_shared<SteadyWater>(scene, particles, origin);
+  if (scene.water.mode == WaterMode::transient)
+    return std::make_shared<TransientWater>(scene, particles, origin);
   return nullptr;
 }
 
@@ -134,7 +136,7 @@ Model build_model(const Case& case_as_drawn) {
     model.soils[i].add_history(model.particles);
     model.soils[i].start_history(model.particles, static_cast<std::int32_t>(i));
   }
-  if (const auto water = flowing_water(scene, model.particles)) {
+  if (const auto water = flowing_water(scene, model.particles, model.origin)) {
     water->wet(scene, model.particles);
     model.pore_water = water;
   }

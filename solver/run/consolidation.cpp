@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "solver/space/parallel.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -168,10 +169,10 @@ void Consolidation::take_turns(std::span<const double> known, double tau) {
   }
   const std::size_t a = soil_.fastest();
   const Vec2 place = model_.particles.start[a] + model_.origin;  // it may have run away
-  throw std::runtime_error(fmt::format(
-      "the soil does not come to rest at {:.6g} s: it fails around ({:.4g}, {:.4g}), or water.tolerance is "
-      "too small",
-      progress_.time, place.x(), place.y()));
+  throw std::runtime_error(
+      fmt::format("the soil does not come to rest at {:.6g} s: it fails around {}, or water.tolerance is "
+                  "too small",
+                  progress_.time, place_text(place)));
 }
 
 /// The loads act at once; no water has left yet.

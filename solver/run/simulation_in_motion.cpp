@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/run/simulation.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 
@@ -73,8 +74,8 @@ bool Simulation::change_pressure() {
           .time = time(),
           .message =
               fmt::format("at {:.6g} s the pore pressure no longer follows the volume of the soil around "
-                          "({:.4g}, {:.4g}): it has yielded too far",
-                          time(), place.x(), place.y())});
+                          "{}: it has yielded too far",
+                          time(), place_text(place))});
     return false;
   }
   if (held.empty()) return true;

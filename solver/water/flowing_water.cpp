@@ -9,11 +9,12 @@
 
 namespace porosph {
 
-FlowingWater::FlowingWater(const Case& scene, const Particles& p)
+FlowingWater::FlowingWater(const Case& scene, const Particles& p, const Vec2& origin)
     : faces_(faces_of_seepage(scene)),
       first_named_(faces_.size() - scene.water.faces.size()),
       outline_(hydraulic_outline(scene.soils, faces_, scene.particles.spacing)),
-      flow_(make_flow(scene, p)),
+      flow_(make_flow(scene, p, origin)),
+      origin_(origin),
       unit_weight_(scene.water.unit_weight),
       weighs_by_saturation_(scene.water.mode == WaterMode::transient),
       place_(p.position) {
@@ -21,9 +22,9 @@ FlowingWater::FlowingWater(const Case& scene, const Particles& p)
   for (const FlowSectionCase& section : scene.sections) sections_.emplace_back(section, flow_, p.position);
 }
 
-DarcyFlow FlowingWater::make_flow(const Case& scene, const Particles& p) {
+DarcyFlow FlowingWater::make_flow(const Case& scene, const Particles& p, const Vec2& origin) {
   FlowPairs pairs = make_flow_pairs(scene.soils, outline_, p, scene.particles.spacing);
-  add_drains(scene.water.drains, p, scene.particles.spacing, faces_, outline_, pairs);
+  add_drains(scene.water.drains, p, origin, scene.particles.spacing, faces_, outline_, pairs);
   std::vector<Retention> retention;
   for (const SoilCase& soil : scene.soils) retention.emplace_back(soil.retention, scene.particles.spacing);
   std::vector<double> height;

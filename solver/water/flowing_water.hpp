@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
+#include "solver/space/place_text.hpp"
 #include "solver/water/flow/darcy_flow.hpp"
 #include "solver/water/flow/flow_record.hpp"
 #include "solver/water/flow/section_flow.hpp"
@@ -15,8 +17,9 @@ namespace porosph {
 /// takes its water along: each particle then keeps its pressure head instead.
 class FlowingWater : public PoreWater {
  public:
-  /// Of the particles as they are drawn. Throws std::runtime_error where a drain is near none.
-  FlowingWater(const Case& scene, const Particles& particles);
+  /// Of the particles as they are drawn. `origin`: what their positions are relative to, for messages. Throws
+  /// std::runtime_error where a drain is near none.
+  FlowingWater(const Case& scene, const Particles& particles, const Vec2& origin);
 
   /// Gives the particles their pore pressure, and their weight: between that of dry and of saturated soil by
   /// the share of the particle below the water table; over time by saturation, where there is a retention
@@ -48,7 +51,8 @@ class FlowingWater : public PoreWater {
   std::vector<double> through_sections(std::span<const double> head, const FaceConditions& faces) const;
   /// The number of each patch's face or drain, as below; -1: one that the case does not name.
   std::vector<int> face_of_patch() const;
-  const Vec2& place(std::size_t a) const { return place_[a]; }  ///< where a particle was drawn [m]
+  /// Where a particle was drawn, in the case's coordinates.
+  std::string place(std::size_t a) const { return place_text(place_[a] + origin_); }
   std::size_t named_faces() const { return faces_.size() - first_named_; }
   /// Into the soil through each of the case's faces, then through its drains [m2/s].
   std::vector<double> through_faces(std::span<const double> head, const FaceConditions& faces) const;
@@ -60,8 +64,9 @@ class FlowingWater : public PoreWater {
   FlowRecord record_;
 
  private:
-  DarcyFlow make_flow(const Case& scene, const Particles& particles);
+  DarcyFlow make_flow(const Case& scene, const Particles& particles, const Vec2& origin);
 
+  Vec2 origin_;                             ///< of positions [m]
   double unit_weight_;                      ///< of water [N/m3]
   bool weighs_by_saturation_;               ///< above the water table, where the soil has a retention curve
   std::vector<Vec2> place_, permeability_;  ///< of the particles: where they were drawn [m], k [m/s]

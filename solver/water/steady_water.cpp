@@ -10,7 +10,8 @@
 
 namespace porosph {
 
-SteadyWater::SteadyWater(const Case& scene, const Particles& p) : FlowingWater(scene, p) {
+SteadyWater::SteadyWater(const Case& scene, const Particles& p, const Vec2& origin)
+    : FlowingWater(scene, p, origin) {
   FaceConditions faces(outline_, faces_);
   if (scene.flow) {
     faces.set_time(scene.flow->time);
@@ -20,10 +21,10 @@ SteadyWater::SteadyWater(const Case& scene, const Particles& p) : FlowingWater(s
     return;
   }
   if (const std::int32_t a = flow_.unreached(faces); a >= 0)
-    throw std::runtime_error(fmt::format(
-        "steady seepage: the soil around ({:.6g}, {:.6g}) is reached by no [[water.face]] of kind "
-        "\"head\" or \"seepage\"",
-        p.position[a].x(), p.position[a].y()));
+    throw std::runtime_error(
+        fmt::format("steady seepage: the soil around {} is reached by no [[water.face]] of kind "
+                    "\"head\" or \"seepage\"",
+                    place(a)));
   std::vector<double> height;
   for (const Vec2& x : p.position) height.push_back(x.y());
   SteadySeepage found = solve_steady(flow_, faces, start_of_steady(faces_, height));

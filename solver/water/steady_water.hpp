@@ -9,7 +9,7 @@ namespace porosph {
 class SteadyWater final : public FlowingWater {
  public:
   /// Throws std::runtime_error as solve_steady() does, and where a part of the soil has no face with a head.
-  SteadyWater(const Case& scene, const Particles& particles);
+  SteadyWater(const Case& scene, const Particles& particles, const Vec2& origin = Vec2::Zero());
 
   void visit(StateArchive&) override {}
 };

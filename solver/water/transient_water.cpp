@@ -28,8 +28,8 @@ std::vector<Pores> pores_of(const Case& scene, const Particles& p) {
 
 }  // namespace
 
-TransientWater::TransientWater(const Case& scene, const Particles& p)
-    : FlowingWater(scene, p),
+TransientWater::TransientWater(const Case& scene, const Particles& p, const Vec2& origin)
+    : FlowingWater(scene, p, origin),
       soils_(scene.soils),
       gravity_(scene.loading.gravity),
       richards_(flow_, pores_of(scene, p), face_of_patch(), named_faces(), start(scene, p), settings(scene)) {
@@ -46,10 +46,10 @@ Richards::Start TransientWater::start(const Case& scene, const Particles& p) con
   const bool level = c.start_level < never, given = c.start_pressure_head < never;
   if (!level && !given) {
     if (const std::int32_t a = flow_.unreached(faces); a >= 0)
-      throw std::runtime_error(fmt::format(
-          "steady seepage at the start: the soil around ({:.6g}, {:.6g}) is reached by no [[water.face]] of "
-          "kind \"head\", \"seepage\" or \"rain\"; water.start_level gives it water at rest",
-          p.position[a].x(), p.position[a].y()));
+      throw std::runtime_error(
+          fmt::format("steady seepage at the start: the soil around {} is reached by no [[water.face]] of "
+                      "kind \"head\", \"seepage\" or \"rain\"; water.start_level gives it water at rest",
+                      place(a)));
     std::vector<HydraulicFaceCase> at_start;
     for (const HydraulicFaceCase& face : faces_) at_start.push_back(face_now(face, 0));
     SteadySeepage found = solve_steady(flow_, faces, start_of_steady(at_start, height));
@@ -80,10 +80,10 @@ double TransientWater::advance(double now, double until) {
     return richards_.advance(now, until);
   } catch (const Richards::NotConverged& stuck) {
     throw std::runtime_error(fmt::format(
-        "seepage over time does not converge at {:.6g} s around ({:.6g}, {:.6g}), in steps down to {:.2g} s; "
+        "seepage over time does not converge at {:.6g} s around {}, in steps down to {:.2g} s; "
         "the usual causes are retention that changes much within one spacing, and faces whose level or rate "
         "jumps",
-        stuck.time, place(stuck.particle).x(), place(stuck.particle).y(), stuck.step));
+        stuck.time, place(stuck.particle), stuck.step));
   }
 }
 

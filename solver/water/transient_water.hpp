@@ -12,7 +12,7 @@ class TransientWater final : public FlowingWater {
  public:
   /// From steady flow at t = 0, from water at rest under a level, or from a pressure head, as the case says.
   /// Throws as SteadyWater.
-  TransientWater(const Case& scene, const Particles& particles);
+  TransientWater(const Case& scene, const Particles& particles, const Vec2& origin = Vec2::Zero());
 
   /// One step of the flow from `now`, not beyond `until` [s]; returns the time that it reached. Pore
   /// pressures, record and weight change with tell() only. Throws std::runtime_error with the place where the

@@ -103,7 +103,9 @@ TEST_CASE("probes stand beside what finite elements have there, also far from th
   const Outcome outcome = place.porosph("run far.toml --out run --force");
   CHECK(outcome.status == 0);
   CHECK(outcome.err.empty());
+  CHECK_THAT(outcome.out, Contains("A (400001.5, 200002): sigma'_yy = "));
   CHECK_THAT(outcome.out, Contains(" mm; finite elements -30.570 kPa, "));
+  CHECK_THAT(outcome.out, Contains(" mm at (40000"));  // the zigzag
   const auto check = check_of(place);
   CHECK(check["soils"]["sand"]["particles"] == 252);
   CHECK(check["probes"]["A"]["EffectiveStress_YY"].get<double>() == Approx(-3 * 10190.0));

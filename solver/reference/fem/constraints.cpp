@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "solver/boundary/support.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -128,10 +129,10 @@ void check_rigid_motion(const Mesh& mesh, const P4Mesh& p4mesh, const Freedoms& 
         return hinge.second == part || at.first[hinge.first] == part;
       });
       throw std::runtime_error(
-          fmt::format("finite elements: no boundary holds the soil around ({:.10g}, {:.10g}): it is free to "
+          fmt::format("finite elements: no boundary holds the soil around {}: it is free to "
                       "{} as a rigid "
                       "body{}; add a fixed boundary or a roller along its outline",
-                      origin(part).x(), origin(part).y(), motion_name(motion),
+                      place_text(origin(part)), motion_name(motion),
                       hinged ? ", as it touches the rest in a single point only" : ""));
     }
 }

@@ -10,6 +10,7 @@
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/constraints.hpp"
 #include "solver/reference/fem/mesh.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -87,8 +88,8 @@ int soil_at(const Case& scene, const Point& p) {
   for (int s = 0; s < static_cast<int>(scene.soils.size()); ++s) {
     if (distance(p, scene.soils[s]) > 0) continue;
     if (found >= 0)
-      throw std::runtime_error(fmt::format("mesh: soils '{}' and '{}' overlap around ({:.6g}, {:.6g})",
-                                           scene.soils[found].name, scene.soils[s].name, p.x(), p.y()));
+      throw std::runtime_error(fmt::format("mesh: soils '{}' and '{}' overlap around {}",
+                                           scene.soils[found].name, scene.soils[s].name, place_text(p)));
     found = s;
   }
   return found;

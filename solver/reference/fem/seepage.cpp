@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "solver/reference/fem/assemble.hpp"
+#include "solver/space/place_text.hpp"
 #include "solver/water/flow/steady_seepage.hpp"
 
 namespace porosph {
@@ -139,9 +140,8 @@ FemSeepage solve_fem_seepage(const Case& scene, const Mesh& mesh, const P4Mesh& 
   const DarcyFlow flow(std::move(pairs), outline, retention, soil, height);
   const FaceConditions faces(outline, scene.water.faces);
   if (const std::int32_t n = flow.unreached(faces); n >= 0)
-    throw std::runtime_error(
-        fmt::format("finite elements: the soil around ({:.6g}, {:.6g}) has no face with a head",
-                    nodes.nodes[n].x(), nodes.nodes[n].y()));
+    throw std::runtime_error(fmt::format("finite elements: the soil around {} has no face with a head",
+                                         place_text(nodes.nodes[n])));
   const SteadySeepage found = solve_steady(flow, faces, start_of_steady(scene.water.faces, height));
   FemSeepage result{
       .head = found.head,

@@ -11,6 +11,7 @@
 #include "solver/case/shapes.hpp"
 #include "solver/reference/fem/compare.hpp"
 #include "solver/reference/fem/rough_points.hpp"
+#include "solver/space/place_text.hpp"
 #include "solver/water/standing_water.hpp"
 
 namespace porosph {
@@ -160,8 +161,7 @@ std::vector<std::string> of_the_place(const Case& scene, const Point& x) {
     if (p.kind != RoughPoint::weak && (!nearest || (p.at - x).norm() < (nearest->at - x).norm()))
       nearest = &p;
   if (!nearest || (nearest->at - x).norm() > near * scene.particles.spacing) return {};
-  return {fmt::format("the corner at ({:.10g}, {:.10g}) is near, {}", nearest->at.x(), nearest->at.y(),
-                      what_is_at(*nearest))};
+  return {fmt::format("the corner at {} is near, {}", place_text(nearest->at), what_is_at(*nearest))};
 }
 
 std::vector<std::string> causes(const Case& scene, const Particles& p, const FemSoilCheck& check, int soil,
@@ -210,18 +210,19 @@ std::string warning(const Case& scene, const Particles& p, const FemCheck& check
   const bool stress = kind == "EffectiveStress";
   if (const NamedDifference* field = worst(soil, kind, &FemDifference::relative, check.limit)) {
     const auto& [name, d] = *field;
-    return fmt::format(
-        "{} of soil '{}' is {:.2g} % off finite elements, most at ({:.10g}, {:.10g}): {:.3g} {}; {}",
-        short_name(name), of, 100 * d.relative, d.x, d.y, d.max_abs / (stress ? 1e3 : 1e-3),
-        stress ? "kPa" : "mm", joined(causes(scene, p, soil, s, {d.x, d.y})));
+    return fmt::format("{} of soil '{}' is {:.2g} % off finite elements, most at {}: {:.3g} {}; {}",
+                       short_name(name), of, 100 * d.relative, place_text({d.x, d.y}),
+                       d.max_abs / (stress ? 1e3 : 1e-3), stress ? "kPa" : "mm",
+                       joined(causes(scene, p, soil, s, {d.x, d.y})));
   }
   if (const NamedDifference* field = worst(soil, kind, &FemDifference::local, check.local_limit)) {
     const auto& [name, d] = *field;
     return fmt::format(
-        "{} of soil '{}' is {:.2g} % off finite elements around ({:.10g}, {:.10g}), and {:.2g} % in the "
+        "{} of soil '{}' is {:.2g} % off finite elements around {}, and {:.2g} % in the "
         "whole soil; {}",
-        short_name(name), of, 100 * d.local, to_millimetres(d.local_x), to_millimetres(d.local_y),
-        100 * d.relative, joined(causes(scene, p, soil, s, {d.local_x, d.local_y})));
+        short_name(name), of, 100 * d.local,
+        place_text({to_millimetres(d.local_x), to_millimetres(d.local_y)}), 100 * d.relative,
+        joined(causes(scene, p, soil, s, {d.local_x, d.local_y})));
   }
   return "";
 }

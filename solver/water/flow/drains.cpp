@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "solver/space/place_text.hpp"
+
 namespace porosph {
 namespace {
 
@@ -30,14 +32,14 @@ std::vector<std::int32_t> particles_of(const DrainCase& drain, const Particles& 
 
 }  // namespace
 
-void add_drains(const std::vector<DrainCase>& drains, const Particles& p, double spacing,
+void add_drains(const std::vector<DrainCase>& drains, const Particles& p, const Vec2& origin, double spacing,
                 std::vector<HydraulicFaceCase>& faces, HydraulicOutline& outline, FlowPairs& pairs) {
   for (const DrainCase& drain : drains) {
     const std::vector<std::int32_t> near = particles_of(drain, p, spacing);
     if (near.empty())
-      throw std::runtime_error(fmt::format(
-          "water.drain '{}' from ({:.6g}, {:.6g}): no particle of the soil is within a spacing of it",
-          drain.name, drain.from.x(), drain.from.y()));
+      throw std::runtime_error(
+          fmt::format("water.drain '{}' from {}: no particle of the soil is within a spacing of it",
+                      drain.name, place_text(drain.from + origin)));
     const auto face = static_cast<int>(faces.size());
     const bool filled = drain.level < HydraulicFaceCase::unset;
     faces.push_back(

@@ -7,6 +7,7 @@
 
 #include "solver/case/outline_edges.hpp"
 #include "solver/case/shapes.hpp"
+#include "solver/space/place_text.hpp"
 
 namespace porosph {
 namespace {
@@ -162,7 +163,7 @@ std::string unnamed_stretch(const HydraulicOutline& outline) {
   while (last + 1 != outline.patches.end() && unnamed(*(last + 1)) && (last + 1)->stretch == begin->stretch)
     ++last;
   const Vec2 from = outline.at(begin->stretch, begin->from), to = outline.at(begin->stretch, last->to);
-  return fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", from.x(), from.y(), to.x(), to.y());
+  return fmt::format("{} to {}", place_text(from), place_text(to));
 }
 
 bool touches(const HydraulicFaceCase& face, const std::vector<SoilCase>& soils, double spacing) {

@@ -5,8 +5,10 @@
 #include "solver/output/fields.hpp"
 #include "solver/run/run.hpp"
 #include "tests/box_of_soil.hpp"
+#include "tests/unit/solver/water/scenes.hpp"
 
 using namespace porosph;
+using namespace porosph::test;
 
 namespace {
 
@@ -54,4 +56,15 @@ TEST_CASE("messages name places to the centimetre, also far from zero") {
   const auto breakdown = find_runaway(model, 0);
   REQUIRE(breakdown);
   CHECK_THAT(breakdown->message, Catch::Contains("(from x = 1000000.250 m, y = 4512345.500 m)"));
+}
+
+TEST_CASE("what water cannot do is told with the case's coordinates, not with local ones") {
+  Case scene = seepage_box(2, 1, 0.25);
+  scene.water.mode = WaterMode::steady;
+  Case with_drain = scene;
+  with_drain.water.drains = {{.name = "toe", .from = {5, 1}, .to = {5, 1}, .level = 0}};
+  const Point by(1e6, 4512345.25);
+  CHECK_THROWS_WITH(build_model(moved(scene, by)),
+                    Catch::Contains("the soil around (1000000.125, 4512345.375) is reached by no"));
+  CHECK_THROWS_WITH(build_model(moved(with_drain, by)), Catch::Contains("'toe' from (1000005, 4512346.25):"));
 }
