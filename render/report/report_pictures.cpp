@@ -11,6 +11,7 @@
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
 #include "render/run/stress_paths.hpp"
+#include "render/run/time_axis.hpp"
 #include "render/run/water_curves.hpp"
 #include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
@@ -268,7 +269,7 @@ std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, cons
     const FieldSelection field{"EffectiveStress", component};
     const ShownUnit unit = shown_unit(field.name, 0);
     Chart chart{.title = shown_name(field),
-                .x = {.title = "t [s]"},
+                .x = time_axis(),
                 .y = {.title = shown_label(field, unit)},
                 .series = {},
                 .references = {}};
@@ -282,6 +283,7 @@ std::optional<ReportPicture> draw_probe(const std::vector<LoadedRun>& runs, cons
     if (chart.series.empty()) return std::nullopt;
     chart.references.push_back(
         {.label = "finite elements", .y = fem.values(field, {probe.position})[0] * unit.factor});
+    show_days_if_long(chart);
     charts.push_back(std::move(chart));
   }
   return draw(ChartFigure{.title = fmt::format("At {} {} m", probe.name, place_text(probe.position)),

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "render/run/shown_field.hpp"
+#include "render/run/time_axis.hpp"
 #include "solver/reference/exact/dynamic_column.hpp"
 #include "solver/reference/exact/finite_strain_column.hpp"
 #include "solver/run/reference_errors.hpp"
@@ -69,9 +70,10 @@ void mark_end(ChartSeries& series, const FinishedRun& run) {
   const RunStatus status = run.summary->status;
   if (status == RunStatus::completed) return;
   series.end = status == RunStatus::equilibrium ? LineEnd::stopped : LineEnd::broken;
-  if (status == RunStatus::unstable) series.label += fmt::format(", unstable at {:.3g} s", run.summary->time);
+  if (status == RunStatus::unstable)
+    series.label += fmt::format(", unstable at {}", short_time(run.summary->time));
   if (status == RunStatus::interrupted)
-    series.label += fmt::format(", interrupted at {:.3g} s", run.summary->time);
+    series.label += fmt::format(", interrupted at {}", short_time(run.summary->time));
 }
 
 void style(ChartSeries& series, std::size_t run) {
@@ -89,7 +91,7 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
   if (!runs.front().scene) return charts;
   for (const ProbeCase& probe : runs.front().scene->probes) {
     Chart chart{.title = fmt::format("At {} {} m", probe.name, place_text(probe.position)),
-                .x = {.title = "t [s]"},
+                .x = time_axis(),
                 .y = {.title = shown_label(field, unit)},
                 .series = {},
                 .references = {}};
@@ -107,6 +109,7 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
     if (exact) chart.series.insert(chart.series.begin(), std::move(*exact));
     if (const auto theory = theory_at(*runs.front().scene, probe, field.text()))
       chart.references.push_back({.label = "theory, at rest", .y = *theory * unit.factor});
+    show_days_if_long(chart);
     charts.push_back(std::move(chart));
   }
   return charts;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/run/history_lines.hpp"
+#include "render/run/time_axis.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/output/invariants.hpp"
 #include "solver/space/place_text.hpp"
@@ -246,12 +247,12 @@ std::vector<Chart> settlement_curves(const std::vector<FinishedRun>& runs,
   std::vector<Chart> charts;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].scene) continue;
-    const bool consolidates = runs[i].scene->water.mode == WaterMode::coupled;
     Chart chart{.title = runs.size() > 1 ? labels[i] : "",
-                .x = {.title = "t [s]", .logarithmic = consolidates},
+                .x = time_axis(),
                 .y = {.title = "settlement [mm]"},
                 .series = {},
                 .references = {}};
+    chart.x.logarithmic = runs[i].scene->water.mode == WaterMode::coupled;
     for (const ProbeCase& probe : runs[i].scene->probes) {
       auto line = history_line(runs[i], probe.name, "Displacement_Y", -1e3);
       if (!line) continue;
@@ -260,7 +261,9 @@ std::vector<Chart> settlement_curves(const std::vector<FinishedRun>& runs,
       mark_end(*line, runs[i]);
       chart.series.push_back(std::move(*line));
     }
-    if (!chart.series.empty()) charts.push_back(std::move(chart));
+    if (chart.series.empty()) continue;
+    show_days_if_long(chart);
+    charts.push_back(std::move(chart));
   }
   return charts;
 }

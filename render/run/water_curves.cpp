@@ -1,32 +1,24 @@
 #include "render/run/water_curves.hpp"
 
-#include <algorithm>
-
 #include "render/run/history_lines.hpp"
+#include "render/run/time_axis.hpp"
 
 namespace porosph {
 namespace {
-
-constexpr double day = 86400, longest_in_seconds = 2 * day;
 
 /// Lines of the columns that `name` gives a label to; "" leaves a column out.
 template <class Name>
 Chart chart_of(const FinishedRun& run, const std::string& title, const std::string& y, Name&& name) {
   const History& history = *run.history;
-  const bool in_days = !history.rows.empty() && history.rows.back().front() > longest_in_seconds;
-  Chart chart{.title = title,
-              .x = {.title = in_days ? "t [d]" : "t [s]"},
-              .y = {.title = y},
-              .series = {},
-              .references = {}};
+  Chart chart{.title = title, .x = time_axis(), .y = {.title = y}, .series = {}, .references = {}};
   for (std::size_t c = 1; c < history.columns.size(); ++c) {
     ChartSeries line{.label = name(history.columns[c]), .x = {}, .y = {}};
     if (line.label.empty()) continue;
-    for (const std::vector<double>& row : history.rows)
-      line.x.push_back(in_days ? row[0] / day : row[0]), line.y.push_back(row[c]);
+    for (const std::vector<double>& row : history.rows) line.x.push_back(row[0]), line.y.push_back(row[c]);
     style(line, chart.series.size());
     chart.series.push_back(std::move(line));
   }
+  show_days_if_long(chart);
   return chart;
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "solver/reference/exact/consolidation.hpp"
+#include "solver/reference/exact/well.hpp"
 #include "solver/water/flow/outline.hpp"
 #include "tests/verification/verification.hpp"
 
@@ -106,6 +108,61 @@ TEST_CASE("seepage: the discharge under a sheet pile") {
             .reference = "conformal mapping, a pile without thickness (here 0.25 m): k h / 2",
             .resolution = metres(spacing)},
            std::abs(entering(flow_of(s)) / (1e-5 * 2 * 0.5) - 1), 0.055);
+  }
+}
+
+namespace {
+
+/// Where the particle is whose head is the lowest: the one that a well is.
+Vec2 place_of_well(const Simulation& s, const FlowRecord& flow) {
+  return s.model().particles.position[std::ranges::min_element(flow.head) - flow.head.begin()];
+}
+
+/// Of the head over ln r, r from the well, by least squares over the particles between both radii [m].
+double slope_over_logarithm(const Particles& p, const FlowRecord& flow, const Vec2& well, double from,
+                            double to) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const double r = (p.position[a] - well).norm();
+    if (r < from || r > to) continue;
+    const double log_r = std::log(r), head = flow.head[a];
+    n += 1, x += log_r, y += head, xx += log_r * log_r, xy += log_r * head;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+}  // namespace
+
+TEST_CASE("seepage: a well draws by Thiem's formula, with the effective radius that docs/seepage.md tells") {
+  constexpr double level = 20, fall = 5, k = 1e-5, radius = 0.163;  // of the well over the spacing
+  for (const double spacing : {0.4, 0.2, 0.1}) {
+    const Settings settings = {fmt::format("particles.spacing={:g}", spacing)};
+    Simulation s(scene("well", settings));
+    run_to_end(s);
+    const FlowRecord& flow = flow_of(s);
+    const Particles& p = s.model().particles;
+    const Vec2 well = place_of_well(s, flow);
+    const WellInRectangle exact({10, 10}, well);
+    const double slope = entering(flow) / (2 * std::numbers::pi * k);  // of the head over ln r
+    const auto row = [&](const std::string& quantity, const std::string& reference, double error,
+                         double limit) {
+      expect({.name = "well",
+              .settings = settings,
+              .quantity = quantity,
+              .reference = reference,
+              .resolution = metres(spacing)},
+             error, limit);
+    };
+    row("slope of the head over ln r from 1 m to 3 m", "Thiem: q / (2 pi k), with the discharge found",
+        std::abs(slope_over_logarithm(p, flow, well, 1, 3) / slope - 1), 0.002);
+    double worst = 0;
+    for (std::size_t a = 0; a < p.size(); ++a)
+      if ((p.position[a] - well).norm() > 2.9 * spacing)
+        worst = std::max(worst, std::abs(flow.head[a] - level + slope * exact.drop(p.position[a])) / fall);
+    row("head three spacings from the well and beyond, largest error over the fall",
+        "sum of images, with the discharge found", worst, 0.0005);
+    row("discharge", "Thiem: 2 pi k (H - h) / ln(R / r), r = 0.163 spacing",
+        std::abs(slope * std::log(exact.reach() / (radius * spacing)) / fall - 1), 0.0005);
   }
 }
 

@@ -243,6 +243,9 @@ TEST_CASE("a history says where its run ended") {
   mark_end(line, run_of("run", {0, 0.0919118}, RunStatus::unstable));
   CHECK(line.label == "run, unstable at 0.0919 s");
   CHECK(line.end == LineEnd::broken);
+  ChartSeries long_line{.label = "run", .x = {0, 1}, .y = {0, 1}};
+  mark_end(long_line, run_of("run", {0, 358560}, RunStatus::unstable));
+  CHECK(long_line.label == "run, unstable at 4.15 d");
 }
 
 TEST_CASE("times are told with as many digits as tell them apart") {

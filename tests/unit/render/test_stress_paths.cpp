@@ -2,7 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/run/history_lines.hpp"
 #include "render/run/stress_paths.hpp"
+#include "render/run/water_curves.hpp"
 
 using namespace porosph;
 
@@ -135,4 +137,23 @@ TEST_CASE("settlement is downwards, and over the logarithm of time where soil co
   CHECK(settlement_curves({run}, {"run"})[0].x.logarithmic);
   run.history.reset();
   CHECK(settlement_curves({run}, {"run"}).empty());
+}
+
+TEST_CASE("all charts of a run have the same unit of time", "[paths]") {
+  FinishedRun run = run_of({{}, {}, {}});
+  run.history->columns.push_back("water.entered");
+  for (std::vector<double>& row : run.history->rows) row.push_back(row[0]);
+  const auto charts = [&] {
+    return std::vector{settlement_curves({run}, {"run"})[0], stress_histories({run}, {"run"})[0],
+                       water_curves({run}, {"run"})[0]};
+  };
+  for (const Chart& chart : charts()) {
+    CHECK(chart.x.title == "t [s]");
+    CHECK(chart.series[0].x == std::vector<double>{0, 1, 2});
+  }
+  for (std::vector<double>& row : run.history->rows) row[0] *= 2 * 86400;
+  for (const Chart& chart : charts()) {
+    CHECK(chart.x.title == "t [d]");
+    CHECK(chart.series[0].x == std::vector<double>{0, 2, 4});
+  }
 }
