@@ -92,6 +92,7 @@ draw report "$e/proposed" "$e/consistent" --fem "$e/fem" "${singular[@]}" --out 
   --fail-if 'fem.EffectiveStress_YY.relative_l2>0.04'
 draw report "$out/failure/conventional" "$out/failure/proposed" "$out/failure/consistent" "${conventional[@]}" \
   "${proposed[@]}" "${consistent[@]}" --field PlasticStrain --out "$out/report/slide"
+draw safety cases/safety/griffiths_lane_1.toml --out "$out/safety"
 wait
 [ ! -s "$failures" ] || exit 1
 cp "$out/compare/no_tension/TotalStress_YY.png" "$figures/figure_3_no_tension.png"
@@ -101,6 +102,7 @@ cp "$out/report/figure_5/history.png" "$figures/figure_5.png"
 cp "$out/report/embankment/contours_TotalStress_YY.png" "$figures/figure_7.png"
 cp "$out/report/embankment/history_A.png" "$figures/figure_8.png"
 cp "$out/report/slide/contours_PlasticStrain.png" "$figures/slide.png"
+cp "$out/safety/mechanism.png" "$figures/safety.png"
 
 cat <<END
 
@@ -119,6 +121,8 @@ Look at
       the four effective stresses at A in the embankment, with what finite elements give
   $figures/slide.png
       a slope that slides under water: the conventional form throws soil off within a second, the others let it slide
+  $figures/safety.png
+      how a slope with a factor of safety of 1.36 fails, and the slip surface of limit equilibrium; more in $out/safety/index.html
   $out/report/foundation/index.html
       all of the foundation's runs: pictures, histories, errors, settings (open it in a browser)
   $out/report/embankment/index.html

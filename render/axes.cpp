@@ -23,7 +23,7 @@ AxisTicks make_ticks(const Axis& axis, int max_count) {
     ticks.major = linear_ticks(axis.low, axis.high, max_count);
     TickLabels text = linear_tick_labels(ticks.major);
     ticks.labels = std::move(text.labels);
-    ticks.factor = std::move(text.factor);
+    ticks.factor = std::move(text.factor), ticks.unit = text.unit;
   }
   return ticks;
 }

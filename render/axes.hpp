@@ -19,6 +19,7 @@ struct AxisTicks {
   std::vector<double> major, minor;
   std::vector<std::string> labels;  ///< one per major tick
   std::string factor;               ///< common factor of the labels, or empty
+  double unit = 1;                  ///< that factor
 };
 
 inline constexpr double tick_text = 13, title_text = 14;  ///< text sizes [pixels]

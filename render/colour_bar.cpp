@@ -19,9 +19,14 @@ constexpr double longest_name = 160;  // of a category; longer ones are drawn sm
 constexpr int colour_count = 256;
 const std::string invalid_label = "no value";
 
-/// What stands beside a pointed end, how far values go: "to −205".
-std::string reach_text(double value) {
-  const std::string number = fmt::format("{:.3g}", std::abs(value));
+/// What stands beside a pointed end, how far values go, to three digits: "to −205", "to 1530". In the unit of
+/// the ticks.
+std::string reach_text(double value, const AxisTicks& ticks) {
+  const double size = std::abs(value) / ticks.unit;
+  const bool is_whole = size >= 1000 && size < 1e6;
+  const double last_digit = is_whole ? std::pow(10, std::floor(std::log10(size)) - 2) : 1;
+  const std::string number = is_whole ? fmt::format("{:.0f}", last_digit * std::round(size / last_digit))
+                                      : fmt::format("{:.3g}", size);
   return (value < 0 ? "to −" : "to ") + number;
 }
 
@@ -197,9 +202,9 @@ double colour_bar_width(const FixedScale& scale, double height) {
   for (const std::string& name : scale.categories)
     labels = std::max(labels, label_gap + std::min(longest_name, text_extent(name, tick_text).x));
   if (scale.values_below)
-    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.low), tick_text).x);
+    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.low, ticks), tick_text).x);
   if (scale.values_above)
-    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.high), tick_text).x);
+    labels = std::max(labels, label_gap + text_extent(reach_text(scale.extent.high, ticks), tick_text).x);
   if (scale.values_invalid) labels = std::max(labels, label_gap + text_extent(invalid_label, tick_text).x);
   return bar_width + labels + title_gap + 1.4 * title_text;
 }
@@ -221,11 +226,10 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
     canvas.text({bar.right() + label_gap, y}, text,
                 {.size = fitting_size(text, tick_text, longest_name), .horizontal = Align::low});
   };
-  if (scale.values_below) beside(bar.y - 0.8 * point_height, reach_text(scale.extent.low));
-  if (scale.values_above) beside(bar.top() + 0.8 * point_height, reach_text(scale.extent.high));
-
   const Axis axis = axis_of(scale);
   const AxisTicks ticks = scale.categories.empty() ? fitting_ticks(axis, bar.height, true) : AxisTicks{};
+  if (scale.values_below) beside(bar.y - 0.8 * point_height, reach_text(scale.extent.low, ticks));
+  if (scale.values_above) beside(bar.top() + 0.8 * point_height, reach_text(scale.extent.high, ticks));
   for (std::size_t i = 0; i < scale.categories.size(); ++i)
     beside(bar.y + bar.height * axis.fraction(static_cast<double>(i)), scale.categories[i]);
   for (std::size_t i = 0; i < ticks.major.size(); ++i) {

@@ -102,7 +102,7 @@ TickLabels linear_tick_labels(const std::vector<double>& ticks) {
   const int exponent = largest > 0 ? exponent_of(largest) : 0;
   const bool scaled = exponent >= 5 || exponent <= -3;
   const double factor = scaled ? std::pow(10., exponent) : 1;
-  if (scaled) result.factor = "×" + power_of_ten(exponent);
+  if (scaled) result.factor = "×" + power_of_ten(exponent), result.unit = factor;
   const int decimals = decimals_of(step / factor);
   for (const double tick : ticks)
     result.labels.push_back(with_true_minus(fmt::format("{:.{}f}", tick / factor, decimals)));

@@ -23,6 +23,7 @@ LogTicks log_ticks(double low, double high, int max_count);
 struct TickLabels {
   std::vector<std::string> labels;  ///< one per tick, the same number of decimals for all
   std::string factor;               ///< common factor such as "×10⁻⁵", empty where none is needed
+  double unit = 1;                  ///< that factor
 };
 TickLabels linear_tick_labels(const std::vector<double>& ticks);
 
