@@ -111,6 +111,22 @@ TEST_CASE("A patch that is wrong is named, though the whole soil is right") {
   CHECK(fem_warnings(scene, p, shallow).empty());
 }
 
+TEST_CASE("What is warned of begins beyond the limits") {
+  const Case scene = scene_of_particles();
+  const Particles p = build_model(scene).particles;
+  const auto warnings = [&](double relative, double local) {
+    FemCheck check;
+    check.limit = 0.06, check.local_limit = 0.11;
+    check.soils["sand"] = {.particles = 600, .left_out = 0, .strain = 0, .fields = {}};
+    FemDifference& d = check.soils["sand"].fields["EffectiveStress_YY"];
+    d.relative = relative, d.local = local;
+    return fem_warnings(scene, p, check).size();
+  };
+  CHECK(warnings(0.06, 0.11) == 0);
+  CHECK(warnings(0.0601, 0.11) == 1);
+  CHECK(warnings(0.06, 0.1101) == 1);
+}
+
 TEST_CASE("A number that is not finite is beyond every limit") {
   const Case scene = scene_of_particles();
   const FemSolution fem = solve_fem(scene, mesh_rectangle(scene, 2.5));
