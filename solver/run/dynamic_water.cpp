@@ -162,7 +162,7 @@ void DynamicWater::make_right_side(Kick kick, std::span<const Vec2> acceleration
 void DynamicWater::answer(std::span<const double> head) {
   const Particles& p = model_.particles;
   const std::size_t n = head.size();
-  const auto& [dt, gain] = step_;
+  const double dt = step_.dt, gain = step_.gain;  // clang 14 takes no structured binding into a parallel loop
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) work_.pressure[a] = -unit_weight_ * head[a];
   dynamics_.excess_accelerations(work_.pressure, work_.push);
