@@ -117,7 +117,7 @@ struct DruckerPrager : Elasticity {
     double alpha, k, beta;
     double largest_mean;  ///< of the apex, or the tension cut-off below it [Pa]
   };
-  Surface surface(const History& q) const {
+  [[gnu::always_inline]] Surface surface(const History& q) const {
     const double left = softening.left(q.plastic_strain);
     const bool dilates = q.dilation < dilation_limit;
     const double peak_alpha = dilates ? alpha : sin_phi / 3, peak_k = dilates ? k : k_at_limit;
