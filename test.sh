@@ -40,7 +40,8 @@ case "${1:-}" in
 esac
 scripts/install_packages.sh tests
 build
-ctest --preset "$preset" -j "$(nproc)" "$@"
+# One more than there are cores: some wait for browsers and interrupted runs.
+ctest --preset "$preset" -j "$(($(nproc) + 1))" "$@"
 if $nightly; then
   "build/$preset/bin/stability_tests" "[.nightly]"
   scripts/stability_maps.sh "build/$preset/bin/porosph"
