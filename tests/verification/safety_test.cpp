@@ -133,7 +133,9 @@ TEST_CASE("drawdown lowers a slope's factor of safety to 1.3, and then raises it
   for (const double level : {12, 6, 3, 0}) {
     const Settings settings = {fmt::format("water.level={:g}", level)};
     const Case slope = scene("safety/drawdown", settings);
-    const double exact = on_circles(slope).factor, factor = in_particles(slope, exact);
+    const auto [exact, method] = on_circles(slope);
+    REQUIRE(std::string(method) == "Spencer on circles");
+    const double factor = in_particles(slope, exact);
     CAPTURE(level, factor, exact);
     expect({.name = "safety/drawdown",
             .settings = settings,

@@ -201,8 +201,7 @@ void shared_closing_sums(const ConsistentArraysIn<Space>& c, const Piece& piece,
   });
 }
 
-/// The same of a particle with a list of its own. Two sums of each: an addition need not wait for the one
-/// before.
+/// The same of a particle with a list of its own.
 template <class Space, bool wet, class Pair>
 inline void own_closing_sums(const ConsistentArraysIn<Space>& c, const Pair* g, std::int32_t a,
                              std::int32_t first, Row* out) {
@@ -211,7 +210,7 @@ inline void own_closing_sums(const ConsistentArraysIn<Space>& c, const Pair* g, 
   struct Sums {
     double all[dim]{}, force[dim][dim]{}, pressure[dim]{};
   } sums[2];
-  const auto add = [&](std::int64_t k, Sums& to) {
+  add_by_twos(s, a, sums, [&](std::int64_t k, Sums& to) {
     const std::int32_t b = s.index[k];
     const double p = wet ? c.motion.pressure[b] - c.motion.pressure[a] : 0;
     for (int j = 0; j < dim; ++j) {
@@ -219,11 +218,7 @@ inline void own_closing_sums(const ConsistentArraysIn<Space>& c, const Pair* g, 
       to.all[j] += change, to.pressure[j] += change * p;
       for (int i = 0; i < dim; ++i) to.force[i][j] += change * c.fluxes.piola[dim * i + j][b];
     }
-  };
-  std::int64_t k = s.begin[a] + 1;
-  const std::int64_t last = s.begin[a + 1];
-  for (; k + 1 < last; k += 2) add(k, sums[0]), add(k + 1, sums[1]);
-  if (k < last) add(k, sums[0]);
+  });
   for (int i = 0; i < dim; ++i) {
     double force = 0;
     for (int j = 0; j < dim; ++j)

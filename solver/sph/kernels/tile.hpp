@@ -86,6 +86,16 @@ inline void by_vectors(const Piece& piece, const Stretch& stretch, Use&& use) {
     use(std::max(stretch.first, std::min(a, piece.last - width)));
 }
 
+/// Adds the pairs of particle a's own list to two sums in turn: an addition need not wait for the one before.
+template <class Space, class Sums, class Add>
+[[gnu::always_inline]] inline void add_by_twos(const PairStencilsIn<Space>& s, std::int32_t a,
+                                               Sums (&sums)[2], Add&& add) {
+  std::int64_t k = s.begin[a] + 1;
+  const std::int64_t last = s.begin[a + 1];
+  for (; k + 1 < last; k += 2) add(k, sums[0]), add(k + 1, sums[1]);
+  if (k < last) add(k, sums[0]);
+}
+
 /// Sums over a list's neighbours: stored with it, or, where the pairs were rounded, summed again, so that
 /// what is constant still has no gradient.
 template <int dim>

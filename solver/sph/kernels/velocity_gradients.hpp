@@ -94,17 +94,13 @@ inline void own_closing_rates(const ConsistentArraysIn<Space>& c, const Pair* g,
   constexpr int dim = Space::dim;
   const auto& s = *c.reference.stencils;
   double sum[2][dim][dim]{};
-  const auto add = [&](std::int64_t k, double(&to)[dim][dim]) {
+  add_by_twos(s, a, sum, [&](std::int64_t k, double(&to)[dim][dim]) {
     const std::int32_t b = s.index[k];
     for (int j = 0; j < dim; ++j) {
       const double change = g[k].w * (c.reference.kappa[j][b] - c.reference.kappa[j][a]);
       for (int i = 0; i < dim; ++i) to[i][j] += change * (c.motion.velocity[i][b] - c.motion.velocity[i][a]);
     }
-  };
-  std::int64_t k = s.begin[a] + 1;
-  const std::int64_t last = s.begin[a + 1];
-  for (; k + 1 < last; k += 2) add(k, sum[0]), add(k + 1, sum[1]);
-  if (k < last) add(k, sum[0]);
+  });
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) *out[dim * i + j].of(a, first) = sum[0][i][j] + sum[1][i][j];
 }

@@ -169,6 +169,10 @@ TEST_CASE("gravity needs a boundary for each body") {
   CHECK(errors_with(soil("clay", "[[1, 4], [2, 4], [2, 5], [1, 5]]")).empty());  // lands on the sand
   CHECK_THAT(errors_with(soil("clay", "[[1, -4], [2, -4], [2, -3], [1, -3]]")),
              Contains("soil 'clay' falls"));
+  const std::string propped = soil("clay", "[[1, 4], [2, 4], [2, 5], [1, 5]]") +
+                              boundary("[1, 4]", "[2, 4]") + "name = \"prop\"\n" +
+                              "[[stage]]\nname = \"drop\"\nduration = 1\nsupport_off = [\"prop\"]\n";
+  CHECK(errors_with(propped).empty());
 }
 
 TEST_CASE("soils keep clear of each other or touch") {
