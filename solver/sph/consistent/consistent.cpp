@@ -78,7 +78,9 @@ void ConsistentDynamics::rebuild_reference() {
   since_.yields.assign(asked ? model_.particles.size() : 0, 0);
   if (flow_.active()) flow_.take(reference_, model_);
   if (friction_.active()) friction_.take(reference_, model_);
-  fluxes_ = Fluxes(reference_, model_, control_.spring.active(), flow_.active() ? &flow_.loose() : nullptr);
+  const LooseParticles* loose = flow_.active() ? &flow_.loose() : nullptr;
+  fluxes_ = Fluxes(reference_, model_, control_.spring.active(), loose,
+                   flow_.has_flowed() ? fluxes_.give_records() : SparselyWritten<Record>());
   if (flow_.active()) fluxes_.keep_piola_of(flow_.wall_work().particles_at_walls());
   since_.of_excess.reset();
   connect_arrays();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/space/freed_memory.hpp"
 #include "solver/space/parallel.hpp"
 #include "solver/sph/consistent/control_forces.hpp"
 #include "solver/sph/kernels/pair_weights.hpp"
@@ -26,6 +27,7 @@ Vec2 short_of_walls(const Model& model, const Vec2& from, Vec2 move) {
 
 FlowingSoil::FlowingSoil(const Model& model, double control_viscosity) {
   if (std::ranges::none_of(model.soils, &Soil::flows)) return;
+  keep_freed_memory();
   const Particles& p = model.particles;
   rest_density_.resize(p.size());
   for (std::size_t a = 0; a < p.size(); ++a) {

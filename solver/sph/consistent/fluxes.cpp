@@ -5,8 +5,8 @@
 namespace porosph {
 
 Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control,
-               const LooseParticles* loose)
-    : behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows), loose) {
+               const LooseParticles* loose, SparselyWritten<Record> room)
+    : records_(std::move(room)), behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows), loose) {
   const Particles& p = model.particles;
   const std::size_t all = r.points.size();
   deformation_.assign(p.size(), Mat2::Identity());
@@ -17,7 +17,7 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
   if (wet) pressure_.resize(all);
   if (elastic_control)
     for (auto& m : controlled_) m.resize(all);
-  records_.resize(all);
+  if (records_.size() < all) SparselyWritten<Record>(all + all / 8).swap(records_);  // ghosts come and go
   mirrored_.assign(p.size(), r.closed() ? 1 : 0);
   behind_walls_.mark_used(r, mirrored_);
   piola_.resize(all);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "solver/particles/state.hpp"
@@ -20,9 +21,9 @@ class Fluxes {
  public:
   Fluxes() = default;
   /// Undeformed. `elastic_control`: the zero-energy control acts on displacements as well. `loose`: where
-  /// soil flows, particles that bear no stress.
+  /// soil flows, particles that bear no stress. `room`: records of earlier fluxes, or none.
   Fluxes(const ReferenceConfiguration& reference, const Model& model, bool elastic_control,
-         const LooseParticles* loose);
+         const LooseParticles* loose, SparselyWritten<Record> room);
 
   /// For take_pressures_alone().
   static Fluxes of_pressures(const ReferenceConfiguration& reference);
@@ -46,6 +47,7 @@ class Fluxes {
   PlaneTensors& deformation() { return deformation_; }
   PlaneTensors& flux() { return flux_; }
   std::span<Record> records() { return records_; }
+  SparselyWritten<Record> give_records() { return std::move(records_); }  ///< which are then gone
   void keep_piola_of(std::span<const std::int32_t> particles) {
     for (const std::int32_t a : particles) mirrored_[a] = 1;
   }
