@@ -144,7 +144,7 @@ void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   rows_.find(r, model);
   loose_.take(model, rows_.neighbours(), rows_.see_ghosts(), has_flowed_);
   rows_.blind(loose_);
-  wall_work_.take(r);
+  wall_work_.take(rows_.see_ghosts());
   diffusion_.take(r, model, loose_, rows_.correction());
   deforms_.assign(r.particles(), 1);
   for (std::size_t a = 0; a < r.particles(); ++a)

@@ -78,6 +78,15 @@ struct PairStencilsIn {
         use(index[k], own_single.empty() ? own[k] : widened(own_single[k]));
     }
   }
+  std::int32_t count_of_neighbours(std::int32_t a) const {
+    if (const std::int32_t s = stretch_of[a]; s != own_list)
+      return stretches[s].pairs_end - stretches[s].pairs - 1;
+    return static_cast<std::int32_t>(begin[a + 1] - begin[a]) - 1;
+  }
+  std::int32_t last_neighbour(std::int32_t a) const {  ///< or a itself, if it has none
+    if (const std::int32_t s = stretch_of[a]; s != own_list) return a + offset[stretches[s].pairs_end - 1];
+    return index[begin[a + 1] - 1];
+  }
   bool are_neighbours(std::int32_t a, std::int32_t b) const;
   /// The numbers of particle a's neighbours, in increasing order; `room`: for those of a shared stencil.
   std::span<const std::int32_t> neighbours(std::int32_t a, std::vector<std::int32_t>& room) const;

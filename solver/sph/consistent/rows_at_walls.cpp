@@ -25,13 +25,19 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
   neighbours_.assign(n, 0), in_soil_.assign(n, 0), sees_ghosts_.assign(n, 0), sees_fixed_.assign(n, 0);
 #pragma omp parallel for schedule(static)
   for (std::int32_t a = 0; a < n; ++a) {
+    if (r.stencils.last_neighbour(a) < n) {  // ghosts would come last
+      neighbours_[a] = in_soil_[a] = r.stencils.count_of_neighbours(a);
+      correction_[a] = r.correction[a];
+      continue;
+    }
+    sees_ghosts_[a] = 1;
     r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) {
       const bool fixed = is_fixed_image(r, b);
-      if (b >= n) sees_ghosts_[a] = 1, sees_fixed_[a] |= fixed;
+      sees_fixed_[a] |= fixed;
       if (!fixed) ++neighbours_[a];
       if (b < n) ++in_soil_[a];
     });
-    correction_[a] = sees_ghosts_[a] ? correction_by_soil(r, a) : r.correction[a];
+    correction_[a] = correction_by_soil(r, a);
   }
   particles_.clear();
   for (std::int32_t a = 0; a < n; ++a)

@@ -9,14 +9,10 @@ constexpr int steps_between_samples = 4;  // landings of a particle last no long
 
 }  // namespace
 
-void WallWork::take(const ReferenceConfiguration& r) {
-  const auto n = static_cast<std::int32_t>(r.particles());
+void WallWork::take(std::span<const std::uint8_t> see_ghosts) {
   at_walls_.clear(), force_.clear(), flux_.clear();
-  for (std::int32_t a = 0; a < n; ++a) {
-    bool sees_ghosts = false;
-    r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry&) { sees_ghosts |= b >= n; });
-    if (sees_ghosts) at_walls_.push_back(a);
-  }
+  for (std::size_t a = 0; a < see_ghosts.size(); ++a)
+    if (see_ghosts[a]) at_walls_.push_back(static_cast<std::int32_t>(a));
 }
 
 void WallWork::sample(const ReferenceConfiguration& r, const Particles& p, const PlaneTensors& piola) {

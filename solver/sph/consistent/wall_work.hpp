@@ -19,8 +19,8 @@ namespace porosph {
 /// extrapolated behind walls, and friction, give it a value: the walls' own.
 class WallWork {
  public:
-  /// For a new reference.
-  void take(const ReferenceConfiguration& reference);
+  /// For a new reference; 1 where a particle sees ghosts.
+  void take(std::span<const std::uint8_t> see_ghosts);
 
   /// What acts now, in one of some steps; `piola` is P of the particles that see ghosts, and of the ghosts.
   void sample(const ReferenceConfiguration& reference, const Particles& particles, const PlaneTensors& piola);
