@@ -102,12 +102,31 @@ void check_coupled(const Case& c, Issues& issues) {
                                     name(c.water.mode))});
 }
 
+/// A particle stands for a well of its own radius; a smaller one resists more. Both are known where k is the
+/// same in all directions.
+void check_wells(const Case& c, Issues& issues) {
+  const double most = DrainCase::own_radius * c.particles.spacing;
+  const bool even = std::ranges::all_of(
+      c.soils, [](const SoilCase& soil) { return soil.permeability.x() == soil.permeability.y(); });
+  for (std::size_t i = 0; i < c.water.drains.size(); ++i) {
+    const double radius = c.water.drains[i].radius;
+    const std::string key = fmt::format("water.drain[{}].radius", i);
+    if (radius >= most)
+      issues.push_back({key, fmt::format("must be < {:.4g} m, the radius that its particle stands for (0.163 "
+                                         "spacings), but is {:g}; leave it out, or use finer particles",
+                                         most, radius)});
+    else if (radius > 0 && !even)
+      issues.push_back({key, "needs soils whose permeability is the same in x and y"});
+  }
+}
+
 }  // namespace
 
 std::vector<CaseIssue> check_flow_settings(const Case& c) {
   Issues issues;
   check_unused(c, issues);
   if (!c.water.flows()) return issues;
+  check_wells(c, issues);
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.water.mode != WaterMode::undrained && !(c.soils[i].permeability.x() > 0))
       issues.push_back({fmt::format("soil[{}].permeability", i), "is missing: water flows in this soil"});

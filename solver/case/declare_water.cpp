@@ -150,6 +150,10 @@ void declare(Fields& f, DrainCase& c) {
   f.point(Key("to", "m", "The other end.").otherwise("as `from`: a point"), c.to);
   f.number(Key("level", "m", "y of the water in it.").otherwise("open to the air: water only enters it"),
            c.level, between(-farthest, farthest));
+  f.number(Key("radius", "m", "Radius of a well or pipe at a point, less than 0.163 spacings.")
+               .otherwise("0.163 spacings")
+               .only_if(c.from == c.to, "a drain at a point, without 'to'"),
+           c.radius, above(0, farthest));
 }
 
 void declare(Fields& f, FlowSectionCase& c) {

@@ -46,11 +46,11 @@ struct CouplingCase {
   WaterMotion motion = WaterMotion::quasi_static;
   double motion_time = 20;       ///< automatic: of the run after equilibrium is lost [s]
   double motion_interval = 0.5;  ///< between frames and rows of the history in it [s]
-  double bulk_modulus = 2.2e9;  ///< of water, K_w [Pa]
-  double first_step = 0;        ///< of the flow; 0: as short as water takes from particle to particle [s]
-  double stabilisation = 0.25;  ///< a of tau = a gamma_w dx^2 / M: see PressureStabilisation [-]
-  double growth = 1.3;          ///< largest ratio of a flow step to the one before it [-]
-  double tolerance = 0.001;     ///< of the error in time; a tenth of it of force and pressure [-]
+  double bulk_modulus = 2.2e9;   ///< of water, K_w [Pa]
+  double first_step = 0;         ///< of the flow; 0: as short as water takes from particle to particle [s]
+  double stabilisation = 0.25;   ///< a of tau = a gamma_w dx^2 / M: see PressureStabilisation [-]
+  double growth = 1.3;           ///< largest ratio of a flow step to the one before it [-]
+  double tolerance = 0.001;      ///< of the error in time; a tenth of it of force and pressure [-]
 };
 
 struct RetentionCase {
@@ -106,6 +106,10 @@ struct DrainCase {
   std::string name;
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  ///< ends [m]
   double level = HydraulicFaceCase::unset;  ///< of the water in it; unset: open to the air [m]
+  double radius = 0;                        ///< of one at a point [m]; 0: its particle's own
+
+  /// What the particle at a point draws like, over the spacing (docs/seepage.md, "Wells").
+  static constexpr double own_radius = 0.163;
 };
 
 /// A line that what flows through is told of.

@@ -24,7 +24,7 @@ FlowingWater::FlowingWater(const Case& scene, const Particles& p, const Vec2& or
 
 DarcyFlow FlowingWater::make_flow(const Case& scene, const Particles& p, const Vec2& origin) {
   FlowPairs pairs = make_flow_pairs(scene.soils, outline_, p, scene.particles.spacing);
-  add_drains(scene.water.drains, p, origin, scene.particles.spacing, faces_, outline_, pairs);
+  add_drains(scene, p, origin, faces_, outline_, pairs);
   std::vector<Retention> retention;
   for (const SoilCase& soil : scene.soils) retention.emplace_back(soil.retention, scene.particles.spacing);
   std::vector<double> height;

@@ -143,6 +143,13 @@ IN_THE_FLOW = [
     ("a table of retention that rises", WEIGHT,
      PERMEABLE + 'retention = { model = "table", saturation = [[0, 1], [1, 0.2], [2, 0.3]], '
      'permeability = [[0, 1], [1, 0.01]] }\n' + TRANSIENT + ON_TOP),
+    ("a well wider than its particle", WEIGHT,
+     PERMEABLE + TRANSIENT + '[[water.drain]]\nname = "well"\nfrom = [2, 1]\nradius = 0.1\n' + ON_TOP),
+    ("the radius of a drain along a line", WEIGHT,
+     PERMEABLE + TRANSIENT + '[[water.drain]]\nname = "toe"\nfrom = [2, 1]\nto = [3, 1]\nradius = 0.01\n' + ON_TOP),
+    ("a well in soil that is more permeable along its layers", WEIGHT,
+     PERMEABLE + "permeability_vertical = 1e-6\n" + TRANSIENT +
+     '[[water.drain]]\nname = "well"\nfrom = [2, 1]\nradius = 0.01\n' + ON_TOP),
     ("a drain beside the soil", WEIGHT,
      PERMEABLE + TRANSIENT + '[[water.drain]]\nname = "toe"\nfrom = [9, 1]\n' + ON_TOP),
     ("a section where water stands", WEIGHT,

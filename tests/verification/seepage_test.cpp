@@ -166,6 +166,25 @@ TEST_CASE("seepage: a well draws by Thiem's formula, with the effective radius t
   }
 }
 
+TEST_CASE("seepage: wells of one radius draw the same at all spacings") {
+  for (const double spacing : {0.4, 0.2, 0.1})
+    for (const double radius : {0.05, 0.01}) {
+      if (radius >= DrainCase::own_radius * spacing) continue;
+      const Settings settings = {fmt::format("particles.spacing={:g}", spacing),
+                                 fmt::format("water.drain.well.radius={:g}", radius)};
+      Simulation s(scene("well", settings));
+      run_to_end(s);
+      const WellInRectangle exact({10, 10}, place_of_well(s, flow_of(s)));
+      const double drawn = 2 * std::numbers::pi * 1e-5 * 5 / std::log(exact.reach() / radius);
+      expect({.name = "well",
+              .settings = settings,
+              .quantity = fmt::format("discharge of a well of {:g} cm radius", 100 * radius),
+              .reference = "Thiem: 2 pi k (H - h) / ln(R / r)",
+              .resolution = metres(spacing)},
+             std::abs(entering(flow_of(s)) / drawn - 1), 0.0005);
+    }
+}
+
 namespace {
 
 /// Relative L2 error of the excess pressure over `load` [Pa], exact(depth / height).

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "solver/space/place_text.hpp"
@@ -30,11 +32,32 @@ std::vector<std::int32_t> particles_of(const DrainCase& drain, const Particles& 
   return near;
 }
 
+/// Of a ring of soil, per metre [m/s].
+double conductance_around(double k, double outer, double inner) {
+  return 2 * std::numbers::pi * k / std::log(outer / inner);
+}
+
+/// A pair of a particle with its own image behind the well's face, whose head h_w lies half way between: c
+/// (2 h_w - 2 h) passes.
+void add_to_well(std::int32_t a, double conductance, std::int32_t patch, double height, FlowPairs& pairs) {
+  const auto end = pairs.face_begin.begin() + a + 1;
+  pairs.face_pairs.insert(pairs.face_pairs.begin() + *end, {.from = a,
+                                                            .to = a,
+                                                            .conductance = conductance / 2,
+                                                            .x = Vec2::Zero(),
+                                                            .images = 1,
+                                                            .patch = {patch, -1},
+                                                            .crossing = {height, 0},
+                                                            .foot = {height, 0}});
+  for (auto next = end; next != pairs.face_begin.end(); ++next) ++*next;
+}
+
 }  // namespace
 
-void add_drains(const std::vector<DrainCase>& drains, const Particles& p, const Vec2& origin, double spacing,
+void add_drains(const Case& scene, const Particles& p, const Vec2& origin,
                 std::vector<HydraulicFaceCase>& faces, HydraulicOutline& outline, FlowPairs& pairs) {
-  for (const DrainCase& drain : drains) {
+  const double spacing = scene.particles.spacing;
+  for (const DrainCase& drain : scene.water.drains) {
     const std::vector<std::int32_t> near = particles_of(drain, p, spacing);
     if (near.empty())
       throw std::runtime_error(
@@ -45,8 +68,14 @@ void add_drains(const std::vector<DrainCase>& drains, const Particles& p, const 
     faces.push_back(
         {.kind = filled ? FaceKind::head : FaceKind::seepage, .level = drain.level, .name = drain.name});
     for (const std::int32_t a : near) {
-      pairs.on_face.push_back(a);
-      pairs.patch_of_on_face.push_back(static_cast<std::int32_t>(outline.patches.size()));
+      const auto patch = static_cast<std::int32_t>(outline.patches.size());
+      if (drain.radius > 0) {
+        const double k = scene.soils[p.soil[a]].permeability.x();
+        add_to_well(a, conductance_around(k, DrainCase::own_radius * spacing, drain.radius), patch,
+                    p.position[a].y(), pairs);
+      } else {
+        pairs.on_face.push_back(a), pairs.patch_of_on_face.push_back(patch);
+      }
       pairs.beside_patch.push_back(a);
       outline.patches.push_back({.stretch = -1, .from = 0, .to = 0, .face = face, .place = p.position[a]});
     }

@@ -104,7 +104,8 @@ TEST_CASE("water that flows is read, written and read as the same") {
       "\n[water]\nmode = 'transient'\nstart_level = 0.25\nrigid_soil = true\n"
       "[[water.face]]\nkind = 'closed'\n[[water.face]]\nkind = 'rain'\nrate_over_time = [[0, 0], [60, "
       "1e-6]]\n"
-      "from = [0, 2]\nto = [4, 2]\n[[water.drain]]\nname = 'well'\nfrom = [0.5, 0.5]\nlevel = 0.3\n"
+      "from = [0, 2]\nto = [4, 2]\n[[water.drain]]\nname = 'well'\nfrom = [0.5, 0.5]\nlevel = 0.3\nradius = "
+      "0.01\n"
       "[[section]]\nname = 'middle'\nfrom = [0.5, 0]\nto = [0.5, 2]\n";
   const Case c = parse_case(text, "box.toml");
   const Case back = parse_case(write_case(c), "written");
@@ -114,6 +115,7 @@ TEST_CASE("water that flows is read, written and read as the same") {
   CHECK(back.water.transient.start_level == 0.25);
   CHECK(back.water.faces[1].rate_over_time.size() == 2);
   CHECK(back.water.drains[0].level == 0.3);
+  CHECK(back.water.drains[0].radius == 0.01);
   CHECK(back.sections[0].to == Point(0.5, 2));
 }
 
