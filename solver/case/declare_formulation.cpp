@@ -61,16 +61,16 @@ void declare(Fields& f, FormulationCase& c) {
                              "Viscosity on the part of the motion that no gradient sees; 0: off.")
                .otherwise(fmt::to_string(usual.zero_energy_control)),
            c.zero_energy_control, between(0, 1));
-  f.number(
-      key_of_consistent("zero_energy_stiffness",
-                        "Elastic part of that control: a spring of this times the control's strength "
-                        "times the constrained modulus of the softest soil in reach; 0: viscous only.")
-          .otherwise("0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, footings "
-                     "press elastic soil, or loads an elastic `lattice`; 0.6 where walls turn corners, slits "
-                     "part the soil, "
-                     "bodies are apart or "
-                     "gradients had to be closed; 0.1 in place of these if soil may yield; else 0"),
-      c.zero_energy_stiffness, between(0, 10));
+  f.number(key_of_consistent("zero_energy_stiffness",
+                             "Elastic part of that control: a spring of this times the control's strength "
+                             "times the constrained modulus of the softest soil in reach; 0: viscous only.")
+               .otherwise(
+                   "0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, footings "
+                   "press elastic soil, or loads an elastic `lattice`; 0.05 where either press elastic soil "
+                   "at rest whose water is coupled or undrained; 0.6 where walls turn corners, slits "
+                   "part the soil, bodies are apart or gradients had to be closed; 0.1 in place of these "
+                   "if soil may yield; else 0"),
+           c.zero_energy_stiffness, between(0, 10));
   f.number(key_of_consistent("refresh_strain",
                              "Strain or rotation after which kernel gradients are rebuilt; 0: every step.")
                .otherwise("0.02, but 0.05 in soil that has flowed and 0.1 where elastic bodies are apart"),

@@ -111,6 +111,15 @@ std::shared_ptr<FlowingWater> flowing_water(const Case& scene, const Particles& 
   return nullptr;
 }
 
+Press press_of(const Case& scene) {
+  // Loads that stages switch off would leave what the spring held, of which the next stage does not know.
+  const bool loaded = !scene.loads.empty() && !scene.plan, footings = !scene.footings.empty();
+  if (scene.water.couples())
+    return (loaded || footings) && !scene.water.is_dynamic() ? Press::on_soil_and_water : Press::none;
+  return footings || (loaded && scene.particles.arrangement == Arrangement::lattice) ? Press::on_soil
+                                                                                     : Press::none;
+}
+
 }  // namespace
 
 Model build_model(const Case& case_as_drawn) {
@@ -147,10 +156,7 @@ Model build_model(const Case& case_as_drawn) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
   }
-  // Loads that stages switch off would leave what the spring held, of which the next stage does not know.
-  const bool steps_are_loaded =
-      !scene.loads.empty() && !scene.plan && scene.particles.arrangement == Arrangement::lattice;
-  model.is_pressed = !scene.water.couples() && (steps_are_loaded || !scene.footings.empty());
+  model.press = press_of(scene);
   model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);
   model.usual_cause = usual_cause_of_breakdown(scene);
   return model;

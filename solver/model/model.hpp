@@ -1,6 +1,7 @@
 // A case made ready to compute: particles, soils, water and walls.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,14 +16,20 @@
 
 namespace porosph {
 
+/// What sets off motion that alternates from particle to particle, which a spring then holds.
+enum class Press : std::uint8_t {
+  none,
+  on_soil,            ///< footings, or loads on a stepped lattice
+  on_soil_and_water,  ///< footings or loads on soil at rest whose water is coupled or undrained
+};
+
 struct Model {
   Particles particles;
   std::vector<Soil> soils;
   StandingWater water;                    ///< outside the soil
   std::shared_ptr<PoreWater> pore_water;  ///< in it; copies of the model share it
   std::vector<LoadedSurface> loads;
-  bool is_pressed =
-      false;  ///< by footings, or by loads on a stepped lattice, where motion begins to alternate
+  Press press = Press::none;
   std::vector<Wall> walls;
   Visibility visibility;         ///< who sees whom past outlines
   double spacing = 0;            ///< dx [m]

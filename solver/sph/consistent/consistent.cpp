@@ -67,7 +67,8 @@ void ConsistentDynamics::rebuild_reference() {
     formulation.zero_energy_stiffness = against_impact;
   if (flow_.has_flowed()) {  // gradients are closed, and zigzag held but under loads, at the start alone
     formulation.closed_gradients = false;
-    if (formulation.zero_energy_stiffness < 0 && !model_.is_pressed) formulation.zero_energy_stiffness = 0;
+    if (formulation.zero_energy_stiffness < 0 && model_.press != Press::on_soil)
+      formulation.zero_energy_stiffness = 0;
   }
   reference_ = make_reference(model_, formulation, surroundings_.find(model_));
   counts.searches = surroundings_.searches();
