@@ -276,6 +276,11 @@ ON_THE_COMMAND_LINE = [
     ("finite elements into that folder", "fem case.toml --out other", {}),
     ("finite elements that no memory holds", "fem case.toml --out fine --edge 1e-4", {}),
     ("edges longer than the section", "fem case.toml --out coarse --edge 1e9", {}),
+    ("finite elements of soil in motion", "fem moving.toml --out moving", {
+        "moving.toml": CASE.replace(WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nmotion = "dynamic"\nlevel = 3\n')}),
+    ("finite elements of seepage over time", "fem seeping.toml --out seeping", {
+        "seeping.toml": CASE.replace(WEIGHT, PERMEABLE + TRANSIENT + ON_TOP)}),
+    ("finite elements under a footing that is pushed", "fem pushed.toml --out pushed", {}),
     ("a factor of safety without strength", "safety case.toml", {}),
     ("a factor of safety of level ground", "safety level.toml --method limit-equilibrium", {
         "level.toml": CASE.replace("[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n[[boundary]]')

@@ -119,6 +119,35 @@ TEST_CASE("the estimate of time knows that the run ends at rest") {
   CHECK(at > rested / 1.5);
 }
 
+TEST_CASE("fem tells the probes of soil that consolidates at each time of the output") {
+  const Workplace place;
+  place.write("clay.toml",
+              ground("spacing = 0.5", sand + "\npermeability = 1e-8", "mode = 'coupled'\nlevel = 6") +
+                  "[output]\ntimes = [1, 2]\n");
+  const std::string settings =
+      "--set stop.unbalanced_force_ratio=0 --set loading.damping=0 --set time.end=1e9 --edge 3";
+  REQUIRE(place.porosph("fem clay.toml --out fem " + settings).status == 0);
+  std::istringstream probes(text_of(place.folder() / "fem" / "probes.csv"));
+  std::string line;
+  std::getline(probes, line);
+  CHECK(line.starts_with("time,probe,x,y,EffectiveStress_XX,"));
+  std::vector<std::array<double, 3>> rows;  // time, sigma'_yy, p_w
+  while (std::getline(probes, line)) {
+    std::smatch found;
+    REQUIRE(std::regex_match(line, found,
+                             std::regex("([^,]*),A,5,3,[^,]*,([^,]*),[^,]*,[^,]*,([^,]*),[^,]*,[^,]*")));
+    rows.push_back({std::stod(found[1]), std::stod(found[2]), std::stod(found[3])});
+  }
+  REQUIRE(rows.size() == 4);
+  const double total = -20e3 * 3, standing = -9810 * 3;
+  CHECK(rows[0][0] == 0);
+  for (const auto& [time, effective, pore] : rows) CHECK(effective + pore == Approx(total));
+  const double modulus = 15e6 * 0.7 / (1.3 * 0.4), of_water = 2.2e9 / 0.4;
+  CHECK(rows[0][1] == Approx((total - standing) * modulus / (modulus + of_water)).epsilon(1e-3));
+  CHECK(rows[3][0] == 1e9);
+  CHECK(rows[3][2] == Approx(standing).epsilon(1e-6));
+}
+
 TEST_CASE("water beside a dam's upright face bends it as finite elements say") {
   const Workplace place;
   const std::string dam =

@@ -119,8 +119,8 @@ Vectors outline_load(const Case& scene, const TriangleWater& water, const Corner
                                    : outline_load(of(water), c, edge);
 }
 
-/// oint t . v over one edge, t the traction of the loads that it lies on at the case's end.
-Vectors traction_load(const Case& scene, const Corners& c, int edge) {
+/// oint t . v over one edge, t the traction of the loads that it lies on at a time.
+Vectors traction_load(const Case& scene, const Corners& c, int edge, double time) {
   const Point &from = c[edge], &to = c[(edge + 1) % 3];
   const double tiny = 1e-6 * scene.particles.spacing;
   const Point normal = Point(to.y() - from.y(), from.x() - to.x()).normalized();
@@ -135,16 +135,11 @@ Vectors traction_load(const Case& scene, const Corners& c, int edge) {
       at[edge] = 1 - part;
       at[(edge + 1) % 3] = part;
       const Point place = from + part * (to - from);
-      load += weight * (to - from).norm() * traction.traction(place, normal, scene.time.end) *
-              p4::values(at).transpose();
+      load +=
+          weight * (to - from).norm() * traction.traction(place, normal, time) * p4::values(at).transpose();
     }
   }
   return load;
-}
-
-Corners corners(const Mesh& mesh, int triangle) {
-  const auto& v = mesh.triangles[triangle];
-  return {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
 }
 
 double unit_weight(const Case& scene, const SoilCase& soil, const TriangleWater& water) {
@@ -164,7 +159,7 @@ void add_stiffness(const std::array<std::array<Pairs, 2>, 2>& blocks,
       const Eigen::Matrix2d turned = at.directions.transpose() * block * of.directions;
       for (int k = 0; k < at.count; ++k)
         for (int l = 0; l < of.count; ++l) {
-          const int row = at.first_unknown + k, column = of.first_unknown + l;
+          const int row = at.unknown[k], column = of.unknown[l];
           if (row >= column) lower.emplace_back(row, column, turned(k, l));
         }
     }
@@ -174,12 +169,35 @@ void add_load(const Vectors& element, const std::array<int, node_count>& nodes, 
               Eigen::VectorXd& load) {
   for (int a = 0; a < node_count; ++a) {
     const NodeFreedom& node = freedoms.nodes[nodes[a]];
-    load.segment(node.first_unknown, node.count) +=
-        node.directions.leftCols(node.count).transpose() * element.col(a);
+    for (int k = 0; k < node.count; ++k) load[node.unknown[k]] += node.directions.col(k).dot(element.col(a));
   }
 }
 
 }  // namespace
+
+Corners corners(const Mesh& mesh, int triangle) {
+  const auto& v = mesh.triangles[triangle];
+  return {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+}
+
+Eigen::VectorXd surface_load(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
+                             const Freedoms& freedoms, double time) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms.unknowns);
+  for (const auto& [t, edge] : p4mesh.outline)
+    add_load(traction_load(scene, corners(mesh, t), edge, time), p4mesh.triangles[t], freedoms, load);
+  for (std::size_t i = 0; i < scene.footings.size(); ++i)
+    load[freedoms.footings[i]] += factor_at(scene.footings[i].over_time, time) * scene.footings[i].force;
+  return load;
+}
+
+Eigen::Matrix2Xd displacements(const Freedoms& freedoms, const Eigen::VectorXd& unknowns) {
+  Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(freedoms.nodes.size()));
+  for (std::size_t n = 0; n < freedoms.nodes.size(); ++n) {
+    const NodeFreedom& node = freedoms.nodes[n];
+    for (int k = 0; k < node.count; ++k) u.col(n) += unknowns[node.unknown[k]] * node.directions.col(k);
+  }
+  return u;
+}
 
 Eigen::Matrix2d gradient_map(const Point& a, const Point& b, const Point& c) {
   Eigen::Matrix2d sides;
@@ -221,8 +239,6 @@ LinearSystem assemble(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh,
       add_load(outline_load(scene, water.triangles[t], corners(mesh, t), edge), nodes, freedoms, system.load);
     }
   }
-  for (const auto& [t, edge] : p4mesh.outline)
-    add_load(traction_load(scene, corners(mesh, t), edge), p4mesh.triangles[t], freedoms, system.load);
   system.stiffness.setFromTriplets(lower.begin(), lower.end());
   return system;
 }

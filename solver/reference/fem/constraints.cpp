@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "solver/boundary/support.hpp"
+#include "solver/boundary/traction.hpp"
 #include "solver/space/place_text.hpp"
 
 namespace porosph {
@@ -27,6 +28,34 @@ void hold(NodeFreedom& node, const BoundaryCase& boundary) {
   if (node.count == 2) {
     node.count = 1;
     node.directions << along.x(), -along.y(), along.y(), along.x();
+  }
+}
+
+/// The node goes with the footing into the soil, and not along it where that is rough.
+void tie(NodeFreedom& node, const FootingCase& footing, const Point& into, int unknown) {
+  const Point along(-into.y(), into.x());
+  const auto is_free_along = [&](const Point& d) {
+    return node.count == 2 || (node.count == 1 && std::abs(node.directions.col(0).dot(d)) > 1 - 1e-12);
+  };
+  if (!is_free_along(into))
+    throw std::runtime_error(
+        fmt::format("finite elements: a boundary holds the ground under footing '{}'", footing.name));
+  node.count = footing.rough ? 1 : node.count;
+  node.directions << into.x(), along.x(), into.y(), along.y();
+  node.unknown[0] = unknown;
+}
+
+/// Gives the footings an unknown each, which the nodes under them share.
+void tie_to_footings(const Case& scene, const P4Mesh& p4mesh, double tiny, Freedoms& freedoms) {
+  for (const FootingCase& footing : scene.footings) {
+    if (footing.settlement < never)
+      throw std::runtime_error(fmt::format(
+          "finite elements: footing '{}' is driven by its settlement; they know only a force", footing.name));
+    const Point into = -outward_normal(scene, footing.from, footing.to);
+    freedoms.footings.push_back(freedoms.unknowns++);
+    for (std::size_t n = 0; n < p4mesh.nodes.size(); ++n)
+      if (on_segment(p4mesh.nodes[n], footing.from, footing.to, tiny))
+        tie(freedoms.nodes[n], footing, into, freedoms.footings.back());
   }
 }
 
@@ -145,16 +174,16 @@ bool on_segment(const Point& p, const Point& a, const Point& b, double tolerance
   return (p - a - s * along).norm() <= tolerance;
 }
 
-Freedoms constrain(const std::vector<BoundaryCase>& boundaries, const Mesh& mesh, const P4Mesh& p4mesh) {
+Freedoms constrain(const Case& scene, const Mesh& mesh, const P4Mesh& p4mesh) {
   const double tiny = 1e-8 * extent(mesh.vertices);
-  Freedoms freedoms{std::vector<NodeFreedom>(p4mesh.nodes.size()), 0};
-  for (std::size_t n = 0; n < p4mesh.nodes.size(); ++n) {
-    NodeFreedom& node = freedoms.nodes[n];
-    for (const BoundaryCase& boundary : boundaries)
-      if (on_segment(p4mesh.nodes[n], boundary.from, boundary.to, tiny)) hold(node, boundary);
-    node.first_unknown = freedoms.unknowns;
-    freedoms.unknowns += node.count;
-  }
+  Freedoms freedoms{std::vector<NodeFreedom>(p4mesh.nodes.size()), 0, {}};
+  for (std::size_t n = 0; n < p4mesh.nodes.size(); ++n)
+    for (const BoundaryCase& boundary : scene.boundaries)
+      if (on_segment(p4mesh.nodes[n], boundary.from, boundary.to, tiny)) hold(freedoms.nodes[n], boundary);
+  tie_to_footings(scene, p4mesh, tiny, freedoms);
+  for (NodeFreedom& node : freedoms.nodes)
+    for (int k = 0; k < node.count; ++k)
+      if (node.unknown[k] < 0) node.unknown[k] = freedoms.unknowns++;
   check_rigid_motion(mesh, p4mesh, freedoms);
   return freedoms;
 }

@@ -68,16 +68,11 @@ Mesh mesh_rectangle(const Case& scene, double h) {
     x_stops.insert(x_stops.end(), {stretch.x_from, stretch.x_to});
     y_stops.push_back(stretch.level);
   }
-  for (const BoundaryCase& boundary : scene.boundaries)
-    for (const Point& end : {boundary.from, boundary.to}) {
-      x_stops.push_back(end.x());
-      y_stops.push_back(end.y());
-    }
-  for (const LoadCase& load : scene.loads)
-    for (const Point& end : {load.from, load.to}) {
-      x_stops.push_back(end.x());
-      y_stops.push_back(end.y());
-    }
+  const auto stop_at = [&](const auto& stretches) {
+    for (const auto& s : stretches)
+      for (const Point& end : {s.from, s.to}) x_stops.push_back(end.x()), y_stops.push_back(end.y());
+  };
+  stop_at(scene.boundaries), stop_at(scene.loads), stop_at(scene.footings);
   const auto xs = divide(box.min().x(), box.max().x(), x_stops, h);
   const auto ys = divide(box.min().y(), box.max().y(), y_stops, h);
 

@@ -57,7 +57,8 @@ std::vector<Segment> segments_of(const Case& scene, const Eigen::AlignedBox2d& b
   return segments;
 }
 
-/// All points where the segments end or meet, and where boundaries, faces of the water and loads end.
+/// All points where the segments end or meet, and where boundaries, faces of the water, loads and footings
+/// end.
 std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Case& scene) {
   std::vector<Point> points;
   for (const Segment& s : segments) {
@@ -74,6 +75,7 @@ std::vector<Point> meeting_points(const std::vector<Segment>& segments, const Ca
     points.push_back(face.to);
   }
   for (const LoadCase& load : scene.loads) points.insert(points.end(), {load.from, load.to});
+  for (const FootingCase& footing : scene.footings) points.insert(points.end(), {footing.from, footing.to});
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (const Point& p : crossings(segments[i].a, segments[i].b, segments[j].a, segments[j].b))

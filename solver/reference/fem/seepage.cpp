@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "solver/reference/fem/assemble.hpp"
+#include "solver/reference/fem/edges_on_faces.hpp"
 #include "solver/space/place_text.hpp"
 #include "solver/water/flow/steady_seepage.hpp"
 
@@ -73,15 +74,6 @@ class Conductances {
   std::vector<double> volume_;
 };
 
-double shortest_outline_edge(const Mesh& mesh, const P4Mesh& nodes) {
-  double shortest = never;
-  for (const auto& [triangle, edge] : nodes.outline) {
-    const auto& v = mesh.triangles[triangle];
-    shortest = std::min(shortest, (mesh.vertices[v[edge]] - mesh.vertices[v[(edge + 1) % 3]]).norm());
-  }
-  return shortest;
-}
-
 /// Puts the nodes of the outline on its patches; a node between two lies on both.
 void put_on_faces(const P4Mesh& mesh, const HydraulicOutline& outline, FlowPairs& pairs) {
   std::vector<std::pair<std::int32_t, std::int32_t>> on;
@@ -90,15 +82,7 @@ void put_on_faces(const P4Mesh& mesh, const HydraulicOutline& outline, FlowPairs
     const std::array<int, 5> along{nodes[edge], nodes[3 + 3 * edge], nodes[4 + 3 * edge], nodes[5 + 3 * edge],
                                    nodes[(edge + 1) % 3]};
     const Point middle = mesh.nodes[along[2]];
-    int stretch = -1;
-    double nearest = never;
-    for (std::size_t s = 0; s < outline.stretches.size(); ++s) {
-      const Wall& w = outline.stretches[s];
-      const Vec2 line = w.to - w.from;
-      const double at = std::clamp((middle - w.from).dot(line) / line.squaredNorm(), 0.0, 1.0);
-      const double distance = (w.from + at * line - middle).norm();
-      if (distance < nearest) nearest = distance, stretch = static_cast<int>(s);
-    }
+    const int stretch = stretch_beside(outline, middle);
     const Wall& w = outline.stretches[stretch];
     for (const int node : along) {
       const Point inside = mesh.nodes[node] + 1e-6 * (middle - mesh.nodes[node]);

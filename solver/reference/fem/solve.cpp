@@ -68,15 +68,6 @@ Solved solve(const Case& scene, const LinearSystem& system) {
   return solved;
 }
 
-Eigen::Matrix2Xd displacements(const Freedoms& freedoms, const Eigen::VectorXd& unknowns) {
-  Eigen::Matrix2Xd u(2, freedoms.nodes.size());
-  for (std::size_t n = 0; n < freedoms.nodes.size(); ++n) {
-    const NodeFreedom& node = freedoms.nodes[n];
-    u.col(n) = node.directions.leftCols(node.count) * unknowns.segment(node.first_unknown, node.count);
-  }
-  return u;
-}
-
 MeshWater water_of(const Case& scene, const Mesh& mesh, const P4Mesh& nodes) {
   if (scene.water.mode != WaterMode::steady) return {water_of_triangles(scene.water, mesh), {}, {}};
   FemSeepage seepage = solve_fem_seepage(scene, mesh, nodes);
@@ -94,8 +85,10 @@ FemSolution solve_fem(const Case& scene, const Mesh& mesh) {
   check_mesh(mesh, static_cast<int>(scene.soils.size()));
   const P4Mesh nodes = place_nodes(mesh);
   const MeshWater water = water_of(scene, mesh, nodes);
-  const Freedoms freedoms = constrain(scene.boundaries, mesh, nodes);
-  const Solved solved = solve(scene, assemble(scene, mesh, nodes, water, freedoms));
+  const Freedoms freedoms = constrain(scene, mesh, nodes);
+  LinearSystem system = assemble(scene, mesh, nodes, water, freedoms);
+  system.load += surface_load(scene, mesh, nodes, freedoms, scene.time.end);
+  const Solved solved = solve(scene, system);
   FemSolution solution(scene, mesh, nodes, water, displacements(freedoms, solved.unknowns));
   solution.rounding = solved.rounding;
   solution.unknowns = freedoms.unknowns;
