@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/sph/consistent/body_contact.hpp"
 
@@ -37,9 +38,12 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 
 /// By the map cases/stability/refresh_zero_energy.toml; in flow by collapsing columns, which a limit of 0.02
 /// lets run out equally far, to 0.5 %, in 1.4 times the time. Elastic bodies keep their neighbours, and each
-/// new reference takes what alternates as it is.
+/// new reference takes what alternates as it is. Soil at rest with an excess pressure keeps its reference: in
+/// soil that has flowed the force of that pressure and the volume that laws see are no longer adjoint at
+/// walls.
 double ConsistentDynamics::refresh_strain() const {
   constexpr double usual = 0.02, in_flow = 0.05, of_bodies = 0.1;
+  if (arrays_.state.excess != nullptr) return std::numeric_limits<double>::infinity();
   if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;
   if (flow_.has_flowed()) return in_flow;
   return surroundings_.bodies_are_apart() ? of_bodies : usual;
