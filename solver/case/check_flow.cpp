@@ -81,8 +81,6 @@ void check_steady(const Case& c, Issues& issues) {
 void check_coupled(const Case& c, Issues& issues) {
   check_constant(c, issues);
   const std::string mode = fmt::format("water.mode = \"{}\"", name(c.water.mode));
-  if (c.water.coupling.motion == WaterMotion::automatic)
-    issues.push_back({"water.motion", fmt::format("must be \"quasi_static\" or \"dynamic\" with {}", mode)});
   const bool rests = !c.water.is_dynamic();
   if (rests && (c.loading.damping > 0 || c.loading.adaptive_damping))
     issues.push_back({"loading.damping", fmt::format("is not used with {}: the soil is at rest", mode)});

@@ -28,8 +28,8 @@ void declare_coupling(Fields& f, const WaterCase& water, CouplingCase& c) {
       key("motion", "",
           "`quasi_static`: the soil is at rest all the while, and the run ends where it fails; `dynamic`: it "
           "moves with its inertia, in steps that neither permeability nor `bulk_modulus` makes shorter; "
-          "`automatic`, with `transient` only, which is never `dynamic` from the start: it is at rest until "
-          "it fails, and moves from there on."),
+          "`automatic`: it is at rest until it fails, and moves from there on. `transient` is never "
+          "`dynamic` from the start."),
       c.motion, water_motions);
   const auto in_motion = [&](std::string_view name, std::string_view meaning) {
     return Key(name, "s", meaning)

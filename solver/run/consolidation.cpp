@@ -271,6 +271,7 @@ void Consolidation::visit(StateArchive& state) {
     state.array("rest_head", rest.head);
   }
   soil_.visit(state);
+  if (state.restoring() && stabilisation_.active()) stabilisation_.apply(of_.head, of_.smoothed);
 }
 
 }  // namespace porosph

@@ -36,8 +36,12 @@ class Consolidation {
   /// std::runtime_error where the soil does not come to rest: it has failed.
   double advance(double now, double until);
 
-  std::span<const double> head() const { return of_.head; }  ///< excess, of the particles [m]
-  double drained() const { return progress_.drained; }       ///< volume that has left so far [m2]
+  std::span<const double> head() const { return of_.head; }          ///< excess, of the particles [m]
+  double water_gained(std::size_t a) const { return of_.water[a]; }  ///< W of a particle [m2]
+  double volume_gained(std::size_t a) const { return soil_.volume_gained(a); }   ///< dV [m2]
+  double held_by_stabilisation(std::size_t a) const { return of_.smoothed[a]; }  ///< T h [m2]
+  double time() const { return progress_.time; }        ///< that the last step sought rest at [s]
+  double drained() const { return progress_.drained; }  ///< volume that has left so far [m2]
   /// Volume that is missing: what the particles have lost less what has left [m2].
   double imbalance() const;
   std::span<const Vec2> accelerations() const { return soil_.accelerations(); }  ///< those that are left

@@ -31,6 +31,17 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
   for (auto* v : {&work_.velocity, &work_.push, &work_.present, &work_.change}) v->assign(n, Vec2::Zero());
 }
 
+/// Z counts from here.
+void DynamicWater::go_on_from(const Consolidation& rested) {
+  for (std::size_t a = 0; a < of_.head.size(); ++a) {
+    of_.head[a] = rested.head()[a];
+    of_.excess[a] = -unit_weight_ * of_.head[a];
+    of_.gained[a] = rested.volume_gained(a);
+    of_.water[a] = rested.water_gained(a) - rested.held_by_stabilisation(a);
+  }
+  drained_ = rested.drained();
+}
+
 void DynamicWater::prepare() {
   const std::int64_t refreshes = dynamics_.counts.refreshes;
   dynamics_.prepare();

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/run/consolidation.hpp"
 #include "solver/run/leapfrog.hpp"
 #include "solver/run/water_stencils.hpp"
 #include "solver/sph/dynamics.hpp"
@@ -35,6 +36,9 @@ class DynamicWater {
   };
 
   DynamicWater(const Case& scene, Model& model, Dynamics& dynamics);
+
+  /// Takes the water of soil that was at rest until now.
+  void go_on_from(const Consolidation& rested);
 
   /// Thrown where no pressure lets the soil keep its water.
   struct Lost {

@@ -73,7 +73,7 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
     throw std::runtime_error("the case has stages ([[stage]]), which porosph run and porosph check follow");
   forces_.accelerations.assign(model_.particles.size(), Vec2::Zero());
   for (const ProbeCase& probe : scene.probes) probes_.push_back(make_probe(probe, scene, model_));
-  if (scene.water.is_dynamic())
+  if (scene.water.couples() && scene.water.coupling.motion != WaterMotion::quasi_static)
     motion_.water = std::make_unique<DynamicWater>(moved(scene, -model_.origin), model_, *dynamics_);
   motion_.now = scene.water.is_dynamic();
   if (scene.water.couples() && !motion_.now) couple();
@@ -137,9 +137,20 @@ bool Simulation::follow_flow() {
   return clock_.step == due;
 }
 
+bool Simulation::may_lose_equilibrium() const {
+  return scene_.water.coupling.motion == WaterMotion::automatic;
+}
+
 void Simulation::advance_flow() {
+  std::optional<KeptState> at_rest;
+  if (may_lose_equilibrium()) at_rest.emplace(*this);
   follow_flow();
-  if (!instability()) take_accelerations_at_rest();
+  if (!instability()) return take_accelerations_at_rest();
+  if (!at_rest) return;
+  const double lost = flow_.coupled->time();
+  at_rest->restore(*this);
+  clock_.reach(lost, next_due());
+  begin_motion();
 }
 
 void Simulation::take_accelerations_at_rest() {
@@ -151,11 +162,10 @@ void Simulation::take_accelerations_at_rest() {
 void Simulation::advance_seepage() {
   if (!follow_flow()) return;
   flow_.seepage->tell();
-  if (scene_.water.coupling.motion != WaterMotion::automatic) return settle();
+  if (!may_lose_equilibrium()) return settle();
   const KeptState at_rest(*this);
   settle();
   if (!instability()) return;
-  watch_.forget();
   at_rest.restore(*this);
   begin_motion();
 }
@@ -210,12 +220,13 @@ std::span<const Vec2> Simulation::accelerations() {
 /// Where pressure moves with the soil, p_w is that of the water that stands meanwhile.
 void Simulation::sum_forces() {
   std::vector<Vec2>& a = forces_.accelerations;
-  motion_.water ? motion_.water->prepare() : dynamics_->prepare();
+  DynamicWater* water = motion_.acting();
+  water != nullptr ? water->prepare() : dynamics_->prepare();
   dynamics_->accelerations(a);
-  if (motion_.water) motion_.water->add_force(a);
+  if (water != nullptr) water->add_force(a);
   surface_.press(model_, time(), a);
   if (flow_.seepage) flow_.seepage->add_weight(model_.particles, model_.gravity, a);
-  if (motion_.water && !surface_.footings.empty()) forces_.unheld = a;
+  if (water != nullptr && !surface_.footings.empty()) forces_.unheld = a;
   hold_footings(a);
 }
 
@@ -246,6 +257,7 @@ void Simulation::advance_in_motion() {
   if (motion_.water && !change_pressure()) return;
   drift();
   forces_.valid = false;
+  if (motion_.energy_when_lost) count_changing_loads();
   clock_.go_on();
   if (instability()) return;
   const std::span<const double> of_water =
@@ -334,7 +346,8 @@ double Simulation::unbalanced_force_ratio() {
 
 Simulation::Energy Simulation::energy() {
   const std::vector<Vec2> v = velocities();
-  const double of_excess = motion_.water ? motion_.water->energy() - motion_.water->shown_energy() : 0;
+  const DynamicWater* water = water_in_motion();
+  const double of_excess = water != nullptr ? water->energy() - water->shown_energy() : 0;
   return {.kinetic = kinetic_energy(model_.particles, v),
           .elastic = elastic_energy(model_),
           .gravity = gravity_energy(model_) + load_energy(surface_.loads, model_.particles, time()),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/model/model.hpp"
+#include "solver/output/frame.hpp"
 #include "solver/run/clock.hpp"
 #include "solver/run/consolidation.hpp"
 #include "solver/run/dynamic_water.hpp"
@@ -70,7 +71,7 @@ class Simulation {
   /// Whether the soil moves with its inertia and the water in it.
   bool in_motion() const { return motion_.now; }
   /// Null unless excess pore pressure arises in that.
-  const DynamicWater* water_in_motion() const { return motion_.water.get(); }
+  const DynamicWater* water_in_motion() const { return motion_.acting(); }
   /// Of water that has left coupled soil; nothing elsewhere [m2].
   std::optional<double> drained() const;
   /// Whether time is counted by a flow, whose steps are as long as it allows.
@@ -81,6 +82,12 @@ class Simulation {
   /// Whether a frame and a row are due now of soil that has failed and moves.
   bool motion_is_due() const;
   double failed_at() const { return motion_.failed_at; }  ///< when it did; never: it has not [s]
+  /// energy_counts() when that motion began; null where none began or no excess pressure arises in it.
+  const Summary::EnergyBudget* energy_when_lost() const {
+    return motion_.energy_when_lost ? &*motion_.energy_when_lost : nullptr;
+  }
+  /// Energy that loads have put in since then because they change [J/m].
+  double given_by_loads() const { return motion_.given_by_loads; }
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -127,8 +134,10 @@ class Simulation {
   bool follow_flow();
   void advance_flow();
   void advance_seepage();
+  bool may_lose_equilibrium() const;
   void begin_motion();
   void choose_ticks();
+  void count_changing_loads();
   std::int64_t next_due() const;
   std::int64_t motion_tick(double intervals) const;
   void end_after_motion();
@@ -158,6 +167,10 @@ class Simulation {
     std::unique_ptr<DynamicWater> water;  ///< null where no excess pressure arises
     bool now = false;
     double failed_at = never;  ///< when soil lost its equilibrium in a flow [s]
+    std::optional<Summary::EnergyBudget> energy_when_lost = {};
+    double given_by_loads = 0;  ///< since then, as they change [J/m]
+
+    DynamicWater* acting() const { return now ? water.get() : nullptr; }
   };
   /// At the present instant, one per particle [m/s2].
   struct Forces {

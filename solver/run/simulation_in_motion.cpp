@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/run/energy_budget.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/space/place_text.hpp"
 
@@ -36,13 +37,28 @@ void Simulation::end_after_motion() {
 
 /// Equilibrium is lost within a moment from now: the soil goes on with its inertia.
 void Simulation::begin_motion() {
+  watch_.forget();
   motion_.failed_at = time();
   motion_.now = true;
   end_after_motion();
   std::ranges::fill(model_.particles.velocity, Vec2::Zero());
-  flow_.seepage->stop(model_.particles);
+  if (flow_.seepage) flow_.seepage->stop(model_.particles);
+  if (motion_.water) {
+    motion_.water->go_on_from(*flow_.coupled);
+    dynamics_->carry_excess({});  // it acts by itself from here on
+  }
   dynamics_->strain(0);  // it remembers velocities
   forces_.valid = false;
+  choose_ticks();
+  if (!motion_.water || dynamics_->flow() == nullptr) return;
+  accelerations();  // water is let through where heads are fixed
+  motion_.energy_when_lost = energy_counts(*this);
+}
+
+/// The load at the end of the step acts on where that has led.
+void Simulation::count_changing_loads() {
+  const auto energy = [&](double time) { return load_energy(surface_.loads, model_.particles, time); };
+  motion_.given_by_loads += energy(clock_.then()) - energy(time());
 }
 
 /// Steps as long as the soil's waves allow, which end where something is due.
@@ -91,7 +107,17 @@ void Simulation::visit_motion(StateArchive& state) {
   state.value("failed_at", motion_.failed_at);
   if (!motion_.now) return;
   if (motion_.water) motion_.water->visit(state);
-  if (state.restoring() && follows_flow()) end_after_motion();
+  bool counts_energy = motion_.energy_when_lost.has_value();
+  state.value("counts_energy", counts_energy);
+  if (counts_energy) {
+    if (state.restoring()) motion_.energy_when_lost.emplace();
+    std::span<Summary::EnergyBudget> counts(&*motion_.energy_when_lost, 1);
+    state.array("energy_when_lost", counts);
+    state.value("given_by_loads", motion_.given_by_loads);
+  }
+  if (!state.restoring() || !follows_flow()) return;
+  if (motion_.water) dynamics_->carry_excess({});
+  end_after_motion();
 }
 
 }  // namespace porosph

@@ -132,7 +132,6 @@ IN_THE_FLOW = [
     ("a level and a level over time", WEIGHT,
      PERMEABLE + TRANSIENT + ON_TOP + "level_over_time = [[0, 3], [60, 4]]\n"),
     ("damping of soil that follows a flow", WEIGHT, PERMEABLE + TRANSIENT + ON_TOP + "[loading]\ndamping = 0.1\n"),
-    ("consolidation until the soil fails", WEIGHT, PERMEABLE + '[water]\nmode = "coupled"\nmotion = "automatic"\nlevel = 3\n'),
     ("inertia from the start in transient flow", WEIGHT, PERMEABLE + TRANSIENT + 'motion = "dynamic"\n' + ON_TOP),
     ("rigid soil that may fail", WEIGHT, PERMEABLE + TRANSIENT + 'motion = "automatic"\nrigid_soil = true\n' + ON_TOP),
     ("how long soil moves that never does", WEIGHT, PERMEABLE + TRANSIENT + "motion_time = 5\n" + ON_TOP),
