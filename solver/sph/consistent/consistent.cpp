@@ -43,8 +43,8 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 /// walls.
 double ConsistentDynamics::refresh_strain() const {
   constexpr double usual = 0.02, in_flow = 0.05, of_bodies = 0.1;
-  if (arrays_.state.excess != nullptr) return std::numeric_limits<double>::infinity();
   if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;
+  if (arrays_.state.excess != nullptr) return std::numeric_limits<double>::infinity();
   if (flow_.has_flowed()) return in_flow;
   return surroundings_.bodies_are_apart() ? of_bodies : usual;
 }
