@@ -16,10 +16,12 @@
 #include "solver/case/demand.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
+#include "solver/case/pores.hpp"
 #include "solver/case/stages.hpp"
 #include "solver/model/soil_volume.hpp"
 #include "solver/run/run.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/water/flow/kozeny_carman.hpp"
 
 namespace porosph::app {
 namespace {
@@ -73,6 +75,15 @@ void print_settings(const Case& scene) {
   print("formulation", std::string(motion_name(scene.formulation.motion)));
 }
 
+std::string change_of_permeability(const SoilCase& soil) {
+  if (soil.permeability_law == PermeabilityLaw::constant) return "";
+  constexpr double one_percent = 0.01;
+  const double porosity = porosity_of(soil), left = porosity_after(porosity, 1 - one_percent);
+  if (!(left > 0)) return "; its permeability follows its pores, of which 1 % of compression leaves none";
+  return fmt::format("; its permeability follows its pores: 1 % of compression takes {:.2g} % of it",
+                     100 * (1 - kozeny_carman(porosity, left)));
+}
+
 /// c_v = k M / gamma_w, and how long a layer of each soil takes that drains on one side (Terzaghi).
 void print_consolidation(const Simulation& s) {
   if (s.scene().water.mode == WaterMode::undrained)
@@ -86,8 +97,8 @@ void print_consolidation(const Simulation& s) {
     print(i == 0 ? "consolidation" : "",
           fmt::format(
               "soil '{}': c_v = {:.4g} m2/s; half of it takes {:.3g} s and 90 % {:.3g} s where water goes "
-              "{:.3g} m to one side",
-              soil.name, coefficient, t50 * unit, t90 * unit, path));
+              "{:.3g} m to one side{}",
+              soil.name, coefficient, t50 * unit, t90 * unit, path, change_of_permeability(soil)));
   }
 }
 

@@ -93,7 +93,8 @@ struct SoilCase {
   StrengthCase strength = {};
   CamClayCase cam_clay = {};
   Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
-  double porosity = -1;                ///< n; negative: none given, 0.4 [-]
+  PermeabilityLaw permeability_law = PermeabilityLaw::constant;
+  double porosity = -1;  ///< n; negative: none given, 0.4 [-]
   RetentionCase retention = {};
   int id = -1;  ///< number of the soil in the file, which pieces that stages cut it into share; -1: its place
 };

@@ -24,6 +24,8 @@ void check_unused(const Case& c, Issues& issues) {
             {fmt::format("soil[{}].{}", i, key), fmt::format("is used only with water.mode = {}", mode)});
     };
     unused(!seeps && soil.permeability.x() > 0, "permeability", "\"steady\", \"coupled\" or \"transient\"");
+    unused(c.water.mode != WaterMode::coupled && soil.permeability_law != PermeabilityLaw::constant,
+           "permeability_law", "\"coupled\"");
     unused(!steady && !transient && soil.retention.model != RetentionModel::saturated, "retention",
            "\"steady\" or \"transient\"");
     unused(!transient && !c.water.couples() && soil.porosity > 0, "porosity",

@@ -11,6 +11,7 @@ using Names = std::string_view;
 constexpr std::array<Names, 5> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca",
                                     "modified_cam_clay"};
 constexpr std::array<Names, 3> softenings{"none", "exponential", "linear"};
+constexpr std::array<Names, 2> permeability_laws{"constant", "kozeny_carman"};
 constexpr std::array<Names, 4> retention_models{"saturated", "gardner", "van_genuchten", "table"};
 constexpr double steepest = 80;  // degrees
 
@@ -161,6 +162,11 @@ void declare_pores(Fields& f, SoilCase& c) {
                .only_if(c.permeability.x() > 0, "permeability")
                .otherwise("as permeability"),
            c.permeability.y(), above(0, most_permeable));
+  f.choice(
+      Key("permeability_law", "",
+          "What permeability does as the soil deforms. `constant`: it stays; `kozeny_carman`: it follows the "
+          "porosity n as n^3 / (1 - n)^2, from its value at the start, when the porosity is as given."),
+      c.permeability_law, permeability_laws);
   f.number(Key("porosity", "",
                "Part of the soil that is pores: what water fills, and what gives way with its volume.")
                .otherwise("0.4"),

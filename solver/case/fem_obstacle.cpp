@@ -30,6 +30,9 @@ std::string fem_obstacle(const Case& scene) {
     return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";
   if (!scene.water.level_over_time.empty() || scene.water.flows_over_time()) return "the water moves";
+  for (const SoilCase& soil : scene.soils)
+    if (soil.permeability_law != PermeabilityLaw::constant)
+      return fmt::format("the permeability of soil '{}' follows its pores, which is not linear", soil.name);
   if (!scene.water.drains.empty()) return "there are drains in the soil";
   const auto rains = [](const HydraulicFaceCase& f) { return f.kind == FaceKind::rain; };
   if (std::ranges::any_of(scene.water.faces, rains)) return "rain runs off";

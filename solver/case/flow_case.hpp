@@ -32,6 +32,12 @@ enum class WaterMotion {
   automatic      ///< at rest until it does not come to rest any more, and with its inertia from there on
 };
 
+/// What permeability does as the soil deforms.
+enum class PermeabilityLaw {
+  constant,
+  kozeny_carman,  ///< k ~ n^3 / (1 - n)^2 from its value at the start
+};
+
 /// How permeability and saturation fall above the water table.
 enum class RetentionModel {
   saturated,      ///< full below the water table; within one spacing above it kr falls to 0.001

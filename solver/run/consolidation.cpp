@@ -44,6 +44,7 @@ Consolidation::Consolidation(const Case& scene, Model& model, Dynamics& dynamics
       settings_(scene.water.coupling),
       unit_weight_(scene.water.unit_weight),
       drainage_(drainage(scene, model.particles)),
+      pores_(scene.soils, model.particles),
       stabilisation_(stabilisation(scene, model)) {
   const Particles& p = model.particles;
   const std::size_t n = p.size();
@@ -83,8 +84,16 @@ void Consolidation::show_pressure(double sign) {
   for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += sign * soil_.excess()[a];
 }
 
+void Consolidation::follow_pores() {
+  if (!pores_.follows()) return;
+  for (std::size_t a = 0; a < of_.change.size(); ++a) of_.change[a] = soil_.volume_gained(a);
+  pores_.follow(of_.change);
+  drainage_->flow.set_permeability_ratio(pores_.ratio());
+}
+
 /// -dR/dh and R at the present head.
 void Consolidation::assemble() {
+  follow_pores();
   if (drainage_)
     return drainage_->flow.assemble(of_.head, drainage_->faces, DarcyFlow::Slope::secant, slope_, of_.inflow);
   const std::size_t n = of_.head.size();

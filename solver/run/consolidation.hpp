@@ -7,6 +7,7 @@
 
 #include "solver/model/model.hpp"
 #include "solver/run/drainage.hpp"
+#include "solver/run/pore_permeability.hpp"
 #include "solver/run/resting_soil.hpp"
 #include "solver/sph/dynamics.hpp"
 
@@ -60,6 +61,7 @@ class Consolidation {
   void guess();
   void solve_flow(std::span<const double> known, double tau);
   void assemble();
+  void follow_pores();
   void choose_step(double step, std::span<const double> first_inflow);
   double water_of(std::size_t a) const;
   void show_pressure(double sign);
@@ -90,6 +92,7 @@ class Consolidation {
   CouplingCase settings_;
   double unit_weight_;
   std::optional<Drainage> drainage_;  ///< nothing: undrained
+  PorePermeability pores_;
   PressureStabilisation stabilisation_;
   SparseRows slope_;
   Amounts of_;

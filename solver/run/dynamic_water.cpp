@@ -277,6 +277,7 @@ void DynamicWater::count_work(Kick kick, std::span<const Vec2> accelerations) {
 
 void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations) {
   step_ = {dt, kick.gain};
+  if (stencils_.follow_pores(of_.gained)) work_.of_matrix = {};
   make_matrix();
   make_right_side(kick, accelerations);
   solve();

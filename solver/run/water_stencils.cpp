@@ -33,7 +33,8 @@ WaterStencils::WaterStencils(const Case& scene, const Model& model)
       of_inertia_(scene.soils),
       walls_(outline_of(model.walls)),
       spacing_(model.spacing),
-      drainage_(drainage(scene, model.particles)) {
+      drainage_(drainage(scene, model.particles)),
+      pores_(scene.soils, model.particles) {
   std::vector<double> tau;
   for (const SoilCase& soil : soils_)
     tau.push_back(scene.water.unit_weight * scene.loading.gravity / soil.unit_weight_saturated);
@@ -58,10 +59,18 @@ void WaterStencils::make(const Particles& p) {
   take_slope(p.size());
 }
 
+bool WaterStencils::follow_pores(std::span<const double> gained) {
+  if (!pores_.follows()) return false;
+  pores_.follow(gained);
+  take_slope(gained.size());
+  return true;
+}
+
 /// Saturated flow is linear: its rates at h = 0 and its slope are all of it.
 void WaterStencils::take_slope(std::size_t n) {
   still_inflow_.assign(n, 0);
   if (!drainage_) return;
+  drainage_->flow.set_permeability_ratio(pores_.ratio());
   const std::vector<double> zero(n, 0);
   drainage_->flow.assemble(zero, drainage_->faces, DarcyFlow::Slope::secant, slope_, still_inflow_);
 }
@@ -76,10 +85,12 @@ double WaterStencils::outlet(const Vec2& face, std::size_t a, const Particles& p
   const double length = face.norm(), half_cell = std::sqrt(p.volume(a) / p.fill[a]) / 2;
   if (!drainage_ || !has_moved() || length == 0) return 0;
   const Vec2 normal = face / length;
-  return soils_[p.soil[a]].permeability.dot(normal.cwiseProduct(normal)) * length / half_cell;
+  return pores_.ratio(a) * soils_[p.soil[a]].permeability.dot(normal.cwiseProduct(normal)) * length /
+         half_cell;
 }
 
 void WaterStencils::visit(StateArchive& state, const Particles& p) {
+  if (pores_.follows()) pores_.visit(state);
   bool moved = has_moved();
   state.value("dynamic_moved", moved);
   if (!moved) return;

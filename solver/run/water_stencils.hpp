@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/run/drainage.hpp"
+#include "solver/run/pore_permeability.hpp"
 
 namespace porosph {
 
@@ -29,6 +30,9 @@ class WaterStencils {
   double outlet(const Vec2& face, std::size_t a, const Particles& particles) const;
 
   void renew(const Particles& particles);
+  /// Permeability goes with the pores, by the volume that each particle has gained [m2]; returns whether it
+  /// has changed. Throws std::runtime_error where a soil has no pores left.
+  bool follow_pores(std::span<const double> gained);
   void visit(StateArchive& state, const Particles& particles);  ///< saves or restores all of it
 
  private:
@@ -39,6 +43,7 @@ class WaterStencils {
   HydraulicOutline walls_;
   double spacing_;
   std::optional<Drainage> drainage_;  ///< nothing: undrained
+  PorePermeability pores_;
   PressureStabilisation inertia_;
   SparseRows slope_;
   std::vector<double> still_inflow_;

@@ -1,5 +1,7 @@
 #include "solver/reference/fem/consolidation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -125,6 +127,11 @@ void consolidate_by_fem(const Case& scene, const Mesh& mesh, const std::vector<d
     throw std::runtime_error(
         "finite elements: loading.k0_stress = true is not supported; the reference starts from an unstressed "
         "soil");
+  for (const SoilCase& soil : scene.soils)
+    if (soil.permeability_law != PermeabilityLaw::constant)
+      throw std::runtime_error(
+          fmt::format("finite elements: the permeability of soil '{}' follows its pores, which is not linear",
+                      soil.name));
   check_mesh(mesh, static_cast<int>(scene.soils.size()));
   Consolidating soil(scene, mesh);
   const auto tell = [&](double time) {

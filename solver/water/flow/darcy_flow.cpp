@@ -59,10 +59,16 @@ DarcyFlow::Image DarcyFlow::image(const FacePair& pair, const FaceConditions& fa
   return image;
 }
 
+Retention::Permeability DarcyFlow::permeability(std::size_t a, double head) const {
+  Retention::Permeability k = retention(a).permeability(head - height_[a]);
+  k.kr *= ratio(a), k.slope *= ratio(a);
+  return k;
+}
+
 std::vector<double> DarcyFlow::permeabilities(std::span<const double> head) const {
   std::vector<double> kr(particles());
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < particles(); ++a) kr[a] = retention(a).permeability(head[a] - height_[a]).kr;
+  for (std::size_t a = 0; a < particles(); ++a) kr[a] = permeability(a, head[a]).kr;
   return kr;
 }
 
@@ -74,7 +80,7 @@ void DarcyFlow::assemble(std::span<const double> head, const FaceConditions& fac
   std::vector<Retention::Permeability> kr(particles());
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < particles(); ++a) {
-    kr[a] = retention(a).permeability(head[a] - height_[a]);
+    kr[a] = permeability(a, head[a]);
     if (kind == Slope::secant) kr[a].slope = 0;
   }
 #pragma omp parallel for schedule(static)
@@ -97,7 +103,7 @@ void DarcyFlow::assemble(std::span<const double> head, const FaceConditions& fac
         if (slot >= 0) within(pair.to, pair.conductance, slot);
         continue;
       }
-      const double t = pair.conductance * through_kr(to, kr[a].kr);
+      const double t = pair.conductance * through_kr(to, a, kr[a].kr);
       const double fall = to.sign * head[pair.to] + to.constant - head[a];
       flow += t * fall;
       diagonal += t - (to.dry_kr < 0 ? 0 : pair.conductance * kr[a].slope / 2 * fall);
@@ -140,7 +146,7 @@ void DarcyFlow::for_flows(std::size_t a, std::span<const double> head, std::span
     const FacePair& pair = pairs_.face_pairs[k];
     const Image to = image(pair, faces);
     if (to.fixed)
-      use(pair.conductance * through_kr(to, kr[a]) * (to.sign * head[pair.to] + to.constant - head[a]),
+      use(pair.conductance * through_kr(to, a, kr[a]) * (to.sign * head[pair.to] + to.constant - head[a]),
           pair.to, &pair.x, to.patch);
     else
       use(within(pair.to, pair.conductance), pair.to, &pair.x, -1);
@@ -213,8 +219,7 @@ std::vector<double> DarcyFlow::pressure_heads_at_patches(std::span<const double>
 
 double DarcyFlow::between(std::int32_t a, std::int32_t b, double c, std::span<const double> head) const {
   const double fall = head[b] - head[a], of_a = share_of_first(fall);
-  const double kr_a = retention(a).permeability(head[a] - height_[a]).kr;
-  const double kr_b = retention(b).permeability(head[b] - height_[b]).kr;
+  const double kr_a = permeability(a, head[a]).kr, kr_b = permeability(b, head[b]).kr;
   return c * (of_a * kr_a + (1 - of_a) * kr_b) * fall;
 }
 
@@ -227,15 +232,18 @@ std::vector<double> DarcyFlow::through_patches_if(std::span<const double> head, 
     Image to{-1, 2 * (p.foot[0] + psi), true, p.patch[0]};
     const Retention& soil = retention(p.from);
     if (state == PatchState::dry) to.dry_kr = soil.permeability(psi).kr;
-    const double kr = soil.permeability(head[p.from] - height_[p.from]).kr;
-    through[p.patch[0]] += p.conductance * through_kr(to, kr) * (to.constant - head[p.to] - head[p.from]);
+    const double kr = permeability(p.from, head[p.from]).kr;
+    through[p.patch[0]] +=
+        p.conductance * through_kr(to, p.from, kr) * (to.constant - head[p.to] - head[p.from]);
   }
   return through;
 }
 
 std::vector<Vec2> DarcyFlow::velocities(std::span<const double> head, const FaceConditions& faces,
                                         std::span<const Vec2> position, bool saturated) const {
-  const std::vector<double> kr = saturated ? std::vector<double>(particles(), 1) : permeabilities(head);
+  std::vector<double> kr = permeabilities(head);
+  if (saturated)
+    for (std::size_t a = 0; a < particles(); ++a) kr[a] = ratio(a);
   std::vector<Vec2> w(particles(), Vec2::Zero());
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < particles(); ++a) {

@@ -16,8 +16,9 @@ namespace porosph {
 ///   R_a = sum_b c_ab (kr_a + kr_b)/2 (h_b - h_a) + sum_faces c_ab (2 h_face - h_b - h_a) + rates,
 ///
 /// where psi = h - y gives kr of each; kr of the one that water comes from takes the place of the mean where
-/// that is asked for. Faces are wet, but those that have dried up have the mean of their kr and the soil's. A
-/// sum over all particles leaves what passes the faces alone.
+/// that is asked for. Where soil has deformed, kr counts times what that has made of its k. Faces are wet,
+/// but those that have dried up have the mean of their kr and the soil's. A sum over all particles leaves
+/// what passes the faces alone.
 class DarcyFlow {
  public:
   /// `soil` of each particle; `height`: their y [m].
@@ -45,6 +46,8 @@ class DarcyFlow {
     upstream     ///< of first order, never out of bounds
   };
   void set_mean(Mean mean) { mean_ = mean; }
+  /// k of each particle over that of its soil; none: 1.
+  void set_permeability_ratio(std::span<const double> ratio) { ratio_.assign(ratio.begin(), ratio.end()); }
 
   /// Puts particles that lie on a face with a head at that head.
   void pin(std::span<double> head, const FaceConditions& faces) const;
@@ -85,8 +88,11 @@ class DarcyFlow {
   void find_holders();
   /// Share of a in kr of the pair that water flows through, for h_b - h_a.
   double share_of_first(double fall) const { return mean_ == Mean::arithmetic ? 0.5 : fall < 0 ? 1 : 0; }
-  double through_kr(const Image& image, double kr) const {
-    return image.dry_kr < 0 ? 1 : (kr + image.dry_kr) / 2;
+  double ratio(std::size_t a) const { return ratio_.empty() ? 1 : ratio_[a]; }
+  /// kr at a head, with the ratio.
+  Retention::Permeability permeability(std::size_t a, double head) const;
+  double through_kr(const Image& image, std::size_t a, double kr) const {
+    return image.dry_kr < 0 ? ratio(a) : (kr + ratio(a) * image.dry_kr) / 2;
   }
   void make_pattern();
   template <class Use>
@@ -103,6 +109,7 @@ class DarcyFlow {
   std::vector<std::int32_t> fed_by_patch_;  ///< particle that takes a patch's rate, or -1
   std::vector<std::int32_t> holder_;
   Mean mean_ = Mean::arithmetic;
+  std::vector<double> ratio_;
   SparseRows pattern_;
   std::vector<std::int32_t> slot_, face_slot_;  ///< of each pair in the pattern; -1: the diagonal
 };
