@@ -6,6 +6,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/output/boundary_frame.hpp"
 #include "solver/output/fields.hpp"
+#include "solver/output/sheet_frames.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 #include "vtk_io/run_folder/summary_json.hpp"
@@ -57,7 +58,8 @@ void remove_results(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder / frames_name, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("particles_") || name.starts_with("boundary_")) remove_file(entry.path());
+    if (name.starts_with("particles_") || name.starts_with("boundary_") || name.starts_with("sheets_"))
+      remove_file(entry.path());
   }
   for (const auto& entry : fs::directory_iterator(folder, none))
     if (entry.path().filename().string().starts_with("safety_") && fs::exists(entry.path() / "safety.json"))
@@ -181,6 +183,8 @@ void Results::frame([[maybe_unused]] Simulation& s) {
   const OutputCase& output = s.scene().output;
   series_->write(make_frame(s, output.fields),
                  output.boundary ? std::optional(make_boundary_frame(s)) : std::nullopt);
+  const Case& whole = s.scene().plan ? *s.scene().plan : s.scene();
+  if (!whole.sheets.empty()) series_->write_sheets(make_sheet_frames(s));
 #endif
 }
 

@@ -8,6 +8,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "solver/output/sheet_frames.hpp"
+
 namespace porosph::app {
 namespace {
 
@@ -50,6 +52,16 @@ void visit_footings(StateArchive& state, const std::vector<FootingCase>& all, Su
     if (!is_there) continue;
     Summary::Footing& f = stage.footings[footing.name];
     for (double* value : {&f.force, &f.shear, &f.settlement, &f.width}) state.value("footing", *value);
+  }
+}
+
+void visit_sheets(StateArchive& state, const std::vector<SheetCase>& all, Summary::Stage& stage) {
+  for (const SheetCase& sheet : all) {
+    bool is_there = stage.sheets.contains(sheet.name);
+    state.value("stage_sheet", is_there);
+    if (!is_there) continue;
+    Summary::Sheet& s = stage.sheets[sheet.name];
+    for (double* value : {&s.moment, &s.shear, &s.axial, &s.displacement}) state.value("sheet", *value);
   }
 }
 
@@ -124,6 +136,7 @@ void StagedRun::end(const RunOutcome& outcome, std::optional<Summary::Safety> sa
        .largest_displacement = s.showable() ? s.largest_displacement() : std::nan(""),
        .probes = probe_readings(s),
        .footings = s.showable() ? footing_readings(s) : std::map<std::string, Summary::Footing>(),
+       .sheets = s.showable() ? sheet_readings(s) : std::map<std::string, Summary::Sheet>(),
        .safety = std::move(safety)});
 }
 
@@ -149,6 +162,7 @@ void StagedRun::visit(StateArchive& state) {
     visit_stage(state, stage);
     visit_probes(state, scene_.probes, stage);
     visit_footings(state, scene_.footings, stage);
+    visit_sheets(state, scene_.sheets, stage);
     visit_safety(state, stage.safety);
     if (!state.restoring()) continue;
     stage.name = plan_.name();

@@ -10,6 +10,7 @@
 #include "app/check_by_fem.hpp"
 #include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/output/sheet_frames.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
 #include "solver/space/place_text.hpp"
@@ -208,7 +209,7 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
       summary.seepage->sections[s.scene().sections[i].name] = flow->through_sections[i];
   }
   summary.probes = probe_readings(s);
-  if (s.showable()) summary.footings = footing_readings(s);
+  if (s.showable()) summary.footings = footing_readings(s), summary.sheets = sheet_readings(s);
   if (s.showable()) summary.errors = reference_errors(s);
   summary.skipped = skipped_work(s);
   return summary;
@@ -250,6 +251,10 @@ std::string tell(const Summary& s) {
   for (const auto& [name, f] : s.footings)
     text += fmt::format("{}: {:.5g} kN/m, {:.3g} kN/m along it, settled {:.4g} mm\n", name, f.force / 1e3,
                         f.shear / 1e3, 1e3 * f.settlement);
+  for (const auto& [name, sheet] : s.sheets)
+    text +=
+        fmt::format("{}: at most {:.4g} kNm/m, {:.4g} kN/m of shear, {:.4g} kN/m along it; moved {:.4g} mm\n",
+                    name, sheet.moment / 1e3, sheet.shear / 1e3, sheet.axial / 1e3, 1e3 * sheet.displacement);
   for (const auto& [field, error] : s.errors) {
     const bool stress = field.starts_with("EffectiveStress");
     text +=

@@ -1,5 +1,7 @@
 #include "render/scenery.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -337,6 +339,35 @@ void draw_footing(Canvas& canvas, const Plot& plot, const std::vector<SoilOutlin
   if (footing.rough) canvas.line(from, to, {.colour = black, .width = 3});
 }
 
+/// A thick line, and its moment diagram on the side that is stretched, with the largest value at its place.
+void draw_sheet(Canvas& canvas, const Plot& plot, const DrawnSheet& sheet) {
+  constexpr double longest = 45;  // of the diagram [pixels]
+  const Colour red{176, 24, 40};
+  std::vector<Pixel> line, ends;
+  for (const Point& p : sheet.points) line.push_back(plot.at(p.x(), p.y()));
+  const auto size = [](double moment) { return std::abs(moment); };
+  const auto largest = std::ranges::max_element(sheet.moments, {}, size);
+  if (largest != sheet.moments.end() && *largest != 0) {
+    const Point way{line.back().x - line.front().x, line.back().y - line.front().y};
+    const Point right = Point(way.y(), -way.x()).normalized();
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const Point off = longest * sheet.moments[i] / std::abs(*largest) * right;
+      ends.push_back({line[i].x + off.x(), line[i].y + off.y()});
+    }
+    std::vector<Pixel> area = line;
+    area.insert(area.end(), ends.rbegin(), ends.rend());
+    canvas.polygon(area, {.colour = red, .opacity = 0.25});
+    canvas.line(ends, {.colour = red, .width = 1.4});
+    const Pixel tip = ends[static_cast<std::size_t>(largest - sheet.moments.begin())];
+    const bool rightwards = right.x() * *largest >= 0;
+    canvas.text(
+        {tip.x + (rightwards ? 5 : -5), tip.y}, fmt::format("{:.3g} kNm/m", std::abs(*largest) / 1e3),
+        {.size = 12, .colour = red, .horizontal = rightwards ? Align::low : Align::high, .halo = true});
+  }
+  canvas.line(line, {.colour = white, .width = 5.5});
+  canvas.line(line, {.colour = black, .width = 3.5});
+}
+
 std::vector<Pixel> pixels_of(const Plot& plot, const std::vector<Point>& points) {
   std::vector<Pixel> pixels;
   for (const Point& p : points) pixels.push_back(plot.at(p.x(), p.y()));
@@ -399,6 +430,7 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
   for (const BoundaryCase& boundary : scenery.boundaries) draw_support(canvas, plot, scenery.soils, boundary);
   for (const LoadCase& load : scenery.loads) draw_load(canvas, plot, scenery.soils, load);
   for (const FootingCase& footing : scenery.footings) draw_footing(canvas, plot, scenery.soils, footing);
+  for (const DrawnSheet& sheet : scenery.sheets) draw_sheet(canvas, plot, sheet);
   draw_probes(canvas, plot, scenery);
   draw_lines(canvas, plot, scenery);
 }

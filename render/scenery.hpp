@@ -21,6 +21,13 @@ struct SceneryLine {
   Colour colour;
 };
 
+/// A sheet where it is drawn, and the bending moment at its points.
+struct DrawnSheet {
+  std::vector<Point> points;  ///< [m]
+  std::vector<double>
+      moments;  ///< per metre of thickness, positive where its left side is concave [N]; or empty
+};
+
 struct Scenery {
   std::vector<SoilOutline> soils;          ///< [m]
   std::vector<WaterStretch> water;         ///< [m]
@@ -28,6 +35,7 @@ struct Scenery {
   std::vector<ProbeCase> probes;           ///< [m]
   std::vector<LoadCase> loads = {};        ///< as at the end of the case
   std::vector<FootingCase> footings = {};  ///< drawn where they were placed
+  std::vector<DrawnSheet> sheets = {};
   std::vector<SceneryLine> lines = {};
   std::vector<std::vector<Point>> water_table = {};  ///< lines in the soil [m]
 };
@@ -50,8 +58,8 @@ bool inside_soil(const std::vector<SoilOutline>& soils, Point point);
 std::vector<Box> probe_boxes(const Plot& plot, const Scenery& scenery);
 
 /// Soil outlines, water level with its triangle, supports on the side away from the soil, loads, footings,
-/// probes, further lines with a legend where it hides none of them. Lines only: water is filled beneath the
-/// particles. Water is drawn from `x_from` to `x_to` at most.
+/// sheets with their moment diagrams, probes, further lines with a legend where it hides none of them. Lines
+/// only: water is filled beneath the particles. Water is drawn from `x_from` to `x_to` at most.
 void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to);
 
 }  // namespace porosph

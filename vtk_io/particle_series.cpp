@@ -11,6 +11,7 @@
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/checksum.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
+#include "vtk_io/sheets_vtp.hpp"
 
 namespace porosph {
 namespace fs = std::filesystem;
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* frames_folder = "frames";
-constexpr const char* pvd_name = "particles.pvd";
+constexpr const char *pvd_name = "particles.pvd", *sheets_pvd_name = "sheets.pvd";
 
 std::string frame_name(const char* block, std::size_t number, FrameFormat format) {
   return fmt::format("{}/{}_{:06}.{}", frames_folder, block, number,
@@ -27,11 +28,16 @@ std::string frame_name(const char* block, std::size_t number, FrameFormat format
 
 bool is_frame(const fs::path& file) {
   const auto name = file.filename().string();
-  return (name.starts_with("particles_") || name.starts_with("boundary_")) &&
+  return (name.starts_with("particles_") || name.starts_with("boundary_") || name.starts_with("sheets_")) &&
          (file.extension() == ".vtp" || file.extension() == ".vtu");
 }
 
 }  // namespace
+
+std::string sheets_file(const SeriesFrame& frame) {
+  const std::string number = fs::path(frame.file).stem().string().substr(std::string("particles_").size());
+  return fmt::format("{}/sheets_{}.vtp", frames_folder, number);
+}
 
 SeriesWriter::SeriesWriter(fs::path folder, SeriesOptions options)
     : folder_(std::move(folder)), options_(std::move(options)) {
@@ -94,14 +100,26 @@ void SeriesWriter::write(const Frame& frame, const std::optional<Frame>& boundar
   }
 }
 
+void SeriesWriter::write_sheets(const std::vector<SheetFrame>& sheets) {
+  write_sheets_vtp(folder_ / sheets_file(frames_.back()), sheets);
+  write_sheets_pvd();
+}
+
+void SeriesWriter::write_sheets_pvd() const {
+  std::vector<SeriesFrame> frames;
+  for (const SeriesFrame& frame : frames_) frames.push_back({frame.time, sheets_file(frame)});
+  write_file(folder_ / sheets_pvd_name, pvd_text(frames));
+}
+
 void SeriesWriter::write_pvd() const { write_file(pvd(), pvd_text(frames_)); }
 
 void SeriesWriter::remove_unnamed_frames() const {
   std::error_code ignored;  // a file left over does no harm
   for (const auto& entry : fs::directory_iterator(folder_ / frames_folder, ignored)) {
     const auto name = std::string(frames_folder) + "/" + entry.path().filename().string();
-    const bool named = std::ranges::any_of(
-        frames_, [&](const SeriesFrame& f) { return f.file == name || f.boundary_file == name; });
+    const bool named = std::ranges::any_of(frames_, [&](const SeriesFrame& f) {
+      return f.file == name || f.boundary_file == name || sheets_file(f) == name;
+    });
     if (!named && is_frame(entry.path())) fs::remove(entry.path(), ignored);
   }
 }

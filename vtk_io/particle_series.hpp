@@ -1,4 +1,5 @@
-// A run's particles as files that ParaView opens: particles.pvd and frames/particles_NNNNNN.vtp.
+// A run's particles as files that ParaView opens: particles.pvd and frames/particles_NNNNNN.vtp; and its
+// sheets.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +13,9 @@
 #include "vtk_io/pvd.hpp"
 
 namespace porosph {
+
+/// The file of the sheets beside a frame's particles.
+std::string sheets_file(const SeriesFrame& frame);
 
 struct SeriesOptions {
   FrameFormat format = FrameFormat::poly_data;
@@ -40,6 +44,8 @@ class SeriesWriter {
   /// Adds a frame, with the particles behind the walls as a second block where they are given. Throws
   /// std::invalid_argument if it is not consistent or earlier than the last.
   void write(const Frame& frame, const std::optional<Frame>& boundary = {});
+  /// Adds the sheets at the last frame, to a series of their own: sheets.pvd. Each frame has them, or none.
+  void write_sheets(const std::vector<SheetFrame>& sheets);
 
   const std::vector<SeriesFrame>& frames() const { return frames_; }  ///< written so far
   std::filesystem::path pvd() const;
@@ -49,6 +55,7 @@ class SeriesWriter {
  private:
   void check_files(const std::vector<std::uint32_t>& checksums) const;
   void write_pvd() const;
+  void write_sheets_pvd() const;
   void remove_unnamed_frames() const;
   std::filesystem::path folder_;
   SeriesOptions options_;

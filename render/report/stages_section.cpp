@@ -42,6 +42,15 @@ std::string footing_text(const std::map<std::string, Summary::Footing>& footings
   return text;
 }
 
+/// "wall: 51.4 kNm/m, 4 mm"
+std::string sheet_text(const std::map<std::string, Summary::Sheet>& sheets) {
+  std::string text;
+  for (const auto& [name, s] : sheets)
+    text += fmt::format("{}{}: {:.4g} kNm/m, {:.3g} mm", text.empty() ? "" : "; ", name, s.moment / 1e3,
+                        1e3 * s.displacement);
+  return text;
+}
+
 std::string table_of(const std::vector<Summary::Stage>& stages) {
   std::vector<std::vector<std::string>> rows = {
       {"Stage", "From [s]", "To [s]", "Ended by", "Steps", "Particles", "Largest displacement [mm]"}};
@@ -49,6 +58,8 @@ std::string table_of(const std::vector<Summary::Stage>& stages) {
   if (safety) rows[0].push_back("Factor of safety");
   const bool footings = std::ranges::any_of(stages, [](const auto& s) { return !s.footings.empty(); });
   if (footings) rows[0].push_back("Footings");
+  const bool sheets = std::ranges::any_of(stages, [](const auto& s) { return !s.sheets.empty(); });
+  if (sheets) rows[0].push_back("Sheets");
   for (const auto& [name, probe] : stages.front().probes) rows[0].push_back(name + ": u_x, u_y; σ'yy");
   for (const Summary::Stage& s : stages) {
     rows.push_back({s.name, fmt::format("{:.4g}", s.start), fmt::format("{:.4g}", s.time),
@@ -56,6 +67,7 @@ std::string table_of(const std::vector<Summary::Stage>& stages) {
                     fmt::format("{:.4g}", 1e3 * s.largest_displacement)});
     if (safety) rows.back().push_back(s.safety ? safety_text(*s.safety) : "");
     if (footings) rows.back().push_back(footing_text(s.footings));
+    if (sheets) rows.back().push_back(sheet_text(s.sheets));
     for (const auto& [name, probe] : s.probes) rows.back().push_back(probe_text(probe));
   }
   return html::table(rows);

@@ -15,6 +15,8 @@
 #include "solver/case/case_file.hpp"
 #include "solver/water/flow/face_conditions.hpp"
 #include "solver/water/standing_water.hpp"
+#include "vtk_io/particle_series.hpp"
+#include "vtk_io/sheets_vtp.hpp"
 
 namespace porosph {
 namespace {
@@ -72,6 +74,7 @@ Scenery scenery_of(const Case& scene) {
       .soils = {}, .water = scene.water.stretches, .boundaries = scene.boundaries, .probes = scene.probes};
   scenery.loads = scene.loads;
   scenery.footings = scene.footings;
+  for (const SheetCase& sheet : scene.sheets) scenery.sheets.push_back({{sheet.from, sheet.to}, {}});
   if (seeps(scene)) scenery.water = water_beside_faces(scene);
   for (const SoilCase& soil : scene.soils) scenery.soils.push_back({soil.polygon, soil.holes});
   return scenery;
@@ -110,6 +113,23 @@ void move_footings(ContourPanel& panel, const Case& scene, const std::vector<Poi
     const Point along = (footing.to - footing.from).normalized(), across(-along.y(), along.x());
     const Point way = factor * across.dot(Point(x[i], y[i])) * across;
     if (way.allFinite()) footing.from += way, footing.to += way;
+  }
+}
+
+/// Where they are at that time, with what they carry, if the run has written it.
+void take_sheets(ContourPanel& panel, const FinishedRun& run, double time, double deformation) {
+  if (panel.scenery.sheets.empty()) return;
+  const auto frame = std::ranges::find(run.series.frames, time, &SeriesFrame::time);
+  if (frame == run.series.frames.end()) return;
+  const std::filesystem::path file = run.series.folder / sheets_file(*frame);
+  if (!std::filesystem::exists(file)) return;
+  panel.scenery.sheets.clear();
+  for (const SheetFrame& sheet : read_sheets_vtp(file)) {
+    DrawnSheet& drawn = panel.scenery.sheets.emplace_back();
+    for (const SheetFrame::Node& node : sheet.nodes) {
+      drawn.points.emplace_back(node.x + deformation * node.u_x, node.y + deformation * node.u_y);
+      drawn.moments.push_back(node.moment);
+    }
   }
 }
 
@@ -184,6 +204,7 @@ ContourPanel panel_of(const FinishedRun& run, const Frame& frame, std::vector<do
     drawn[i] += (deformation - 1) * displacements[i];
   }
   if (style != FieldStyle::particles) add_smooth_field(panel, scene, starts, positions, drawn);
+  take_sheets(panel, run, frame.time, deformation);
   if (scene != nullptr) move_footings(panel, *scene, starts, displacements, deformation);
   if (deformation == 1) return panel;
   if (deformation != 0) panel.before = panel.scenery.soils;

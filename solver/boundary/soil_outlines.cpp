@@ -33,6 +33,10 @@ bool inside(const std::vector<Polygon>& rings, const Vec2& p) {
 
 }  // namespace
 
+bool segments_cross(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) {
+  return crossing(p, q, a, b) < never;
+}
+
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 along = b - a;
   const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);

@@ -37,6 +37,8 @@ class SoilOutlines {
   double spacing_ = 0;
 };
 
+/// Whether the segments p q and a b have a point in common; false where they are parallel.
+bool segments_cross(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b);
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
 
 }  // namespace porosph

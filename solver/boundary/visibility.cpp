@@ -35,8 +35,10 @@ std::vector<Wall> along_outlines(std::span<const Wall> walls, const std::vector<
 }  // namespace
 
 Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall> walls,
-                       const Particles& particles, double range, double spacing)
+                       const Particles& particles, double range, double spacing,
+                       const std::vector<SheetCase>& sheets)
     : outlines_(soils, spacing), range_(range), spacing_(spacing) {
+  for (const SheetCase& sheet : sheets) sheets_.push_back({sheet.from, sheet.to});
   std::vector<Polygon> all;
   for (const SoilCase& soil : soils) {
     all.push_back(soil.polygon);
@@ -48,6 +50,16 @@ Visibility::Visibility(const std::vector<SoilCase>& soils, std::span<const Wall>
   ghosts_everywhere_ = walls_.all_in_sight(particles.start);
 }
 
+Visibility Visibility::without_sheets() const {
+  Visibility other = *this;
+  other.sheets_.clear();
+  return other;
+}
+
+bool Visibility::through_sheet(const Vec2& from, const Vec2& to) const {
+  return std::ranges::any_of(sheets_, [&](const auto& s) { return segments_cross(from, to, s.a, s.b); });
+}
+
 /// A line that a wall hides is the walls' matter.
 bool Visibility::through_slit(const Vec2& from, const Vec2& to) const {
   const SoilOutlines::Exit way_out = outlines_.exit(from, to);
@@ -57,6 +69,7 @@ bool Visibility::through_slit(const Vec2& from, const Vec2& to) const {
 }
 
 bool Visibility::past_slits(std::int32_t a, std::int32_t b, const Particles& p) const {
+  if (through_sheet(p.start[a], p.start[b])) return false;
   if (!has_slits_) return true;
   const double apart = (p.start[a] - p.start[b]).norm();
   if (apart < range_ && !(near_edge_[a] && near_edge_[b])) return true;
@@ -70,7 +83,8 @@ bool Visibility::sees(std::int32_t a, std::int32_t b, const Particles& p) const 
 }
 
 bool Visibility::sees_from(const Vec2& point, std::int32_t b, const Particles& p) const {
-  return everywhere() || !outlines_.hides(outlines_.exit(point, p.start[b]));
+  return everywhere() || (!through_sheet(point, p.start[b]) &&
+                          (!has_slits_ || !outlines_.hides(outlines_.exit(point, p.start[b]))));
 }
 
 /// Of the particles at the start.

@@ -157,6 +157,27 @@ struct FootingCase {
   std::vector<Point> over_time;  ///< (time, factor of this), linear between; empty: 1 [s, -]
 };
 
+/// How an end of a sheet is held from where it was placed.
+enum class SheetEnd {
+  free,
+  pinned,  ///< it may turn
+  fixed,
+};
+
+/// An elastic plate along a level or upright straight line: a sheet pile wall, a geotextile. Soil on one side
+/// of it does not see that on the other.
+struct SheetCase {
+  std::string name;
+  Point from = Point::Zero(), to = Point::Zero();  ///< its ends, in the soil as drawn [m]
+  double bending_stiffness = 0;                    ///< EI per metre of thickness [N m]
+  double axial_stiffness = 0;                      ///< EA per metre of thickness [N/m]
+  double mass = 0;                                 ///< per area [kg/m2]
+  bool bonded = false;                             ///< soil does not slide along it, nor come off
+  double friction = 0;  ///< shear over normal effective stress at most, beside adhesion [-]
+  double adhesion = 0;  ///< shear stress that it bears without any normal stress [Pa]
+  SheetEnd from_end = SheetEnd::free, to_end = SheetEnd::free;
+};
+
 /// The momentum equation's discrete form.
 enum class Motion {
   conventional,  ///< eq. (17): pore pressure summed as p_a + p_b
@@ -255,6 +276,7 @@ struct StageCase {
   FillStress fill_stress = FillStress::none;
   std::vector<std::string> load_on, load_off;        ///< loads
   std::vector<std::string> footing_on, footing_off;  ///< footings
+  std::vector<std::string> sheet_on, sheet_off;      ///< sheets
   double ramp = 0;  ///< in which loads grow and fall, and footings' forces [s]
   std::vector<std::string> support_on, support_off;  ///< boundaries
   std::vector<std::string> set;                      ///< "key = value", as overrides
@@ -272,6 +294,7 @@ struct Case {
   std::vector<BoundaryCase> boundaries;
   std::vector<LoadCase> loads;
   std::vector<FootingCase> footings;
+  std::vector<SheetCase> sheets = {};
   FormulationCase formulation;
   LoadingCase loading;
   TimeCase time;
@@ -287,6 +310,7 @@ struct Case {
   /// The case with the soils and boundaries of all stages, of which this one is a stage: particles are placed
   /// as that says. Null where there are no stages. Not part of the file.
   std::shared_ptr<const Case> plan;
+  bool all_from_start = true;  ///< no stage has placed soil so far. Not part of the file.
 
   /// The flow that holds all the time, in place of that of water.mode; null: none. Not part of the file.
   std::shared_ptr<const GivenFlow> flow = {};

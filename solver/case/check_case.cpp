@@ -9,6 +9,7 @@
 #include "solver/case/check_boundaries.hpp"
 #include "solver/case/check_flow.hpp"
 #include "solver/case/check_loads.hpp"
+#include "solver/case/check_sheets.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/shapes.hpp"
@@ -224,6 +225,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   check_names(c.water.faces, "water.face", issues);
   check_names(c.water.drains, "water.drain", issues);
   check_names(c.footings, "footing", issues);
+  check_names(c.sheets, "sheet", issues);
   const double end = latest_end(c);
   const double frames = c.output.interval > 0 ? end / c.output.interval : 0;
   if (frames > most_frames)
@@ -288,6 +290,8 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   issues.insert(issues.end(), of_loads.begin(), of_loads.end());
   const Issues of_footings = check_footings(c);
   issues.insert(issues.end(), of_footings.begin(), of_footings.end());
+  const Issues of_sheets = check_sheets(c);
+  issues.insert(issues.end(), of_sheets.begin(), of_sheets.end());
   if (c.reference != Reference::none && of_boundaries.empty()) {
     const std::string fault = column_fault(c);
     if (!fault.empty()) issues.push_back({"reference", fault});

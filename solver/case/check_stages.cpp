@@ -42,7 +42,7 @@ Issues check_settings_of_stages(const Case& c) {
 /// All soils and probes together; boundaries, loads and water are matters of each stage.
 Issues check_together(const Case& scene) {
   Case all = scene;
-  all.stages.clear(), all.boundaries.clear(), all.loads.clear(), all.footings.clear();
+  all.stages.clear(), all.boundaries.clear(), all.loads.clear(), all.footings.clear(), all.sheets.clear();
   all.water.stretches.clear(), all.water.level_over_time.clear(), all.water.faces.clear();
   all.water.mode = WaterMode::still;
   all.water.drains.clear(), all.sections.clear();
@@ -94,6 +94,10 @@ std::string key_in_file(const std::string& key, const Case& stage, const Case& f
            file.footings.begin();
   });
   if (!footing.empty()) return footing;
+  const std::string sheet = number("sheet", [&](std::size_t i) {
+    return std::ranges::find(file.sheets, stage.sheets[i].name, &SheetCase::name) - file.sheets.begin();
+  });
+  if (!sheet.empty()) return sheet;
   const std::string boundary = number("boundary", [&](std::size_t i) {
     const BoundaryCase& b = stage.boundaries[i];
     return std::ranges::find_if(file.boundaries,

@@ -15,6 +15,7 @@ using Names = std::string_view;
 constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
                                             "disordered", "surface", "stretched"};
 constexpr std::array<Names, 3> boundary_kinds{"roller", "fixed", "friction"};
+constexpr std::array<Names, 3> sheet_ends{"free", "pinned", "fixed"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
 constexpr std::array<Names, 2> frame_precisions{"double", "single"};
@@ -84,6 +85,11 @@ void declare(Fields& f, Case& c) {
           "A rigid plate on a straight stretch of a free outline. It moves straight into the soil, without "
           "turning, by its `force` or by its `settlement`; the soil sticks to it."),
       c.footings);
+  f.tables(
+      Key("sheet", "",
+          "An elastic plate along a level or upright straight line: a sheet pile wall, a geotextile. Soil "
+          "presses on both of its sides, and slides along them against friction. See docs/stages.md."),
+      c.sheets);
   f.set_defaults([&] {
     if (c.particles.arrangement == Arrangement::automatic) c.particles.arrangement = arrangement_for(c);
     if (c.particles.smoothing_ratio == not_given) c.particles.smoothing_ratio = default_smoothing_ratio(c);
@@ -193,6 +199,34 @@ void declare(Fields& f, FootingCase& c) {
               "constant before and after.")
               .otherwise("1 at all times"),
           c.over_time);
+}
+
+void declare(Fields& f, SheetCase& c) {
+  f.name(Key("name", "", "Name of the sheet, unlike any other.").required(), c.name);
+  f.point(Key("from", "m", "One end.").required(), c.from);
+  f.point(Key("to", "m", "The other end, straight above, below or beside it.").required(), c.to);
+  f.number(
+      Key("bending_stiffness", "N*m", "E I per metre of thickness: 0 for a geotextile, which does not bend.")
+          .required(),
+      c.bending_stiffness, between(0, stiffest));
+  f.number(Key("axial_stiffness", "N/m", "E A per metre of thickness.").required(), c.axial_stiffness,
+           above(0, stiffest));
+  f.number(Key("mass", "kg/m2", "Mass per area; it has weight and inertia.").required(), c.mass,
+           above(0, heaviest));
+  f.flag(Key("bonded", "", "`true`: the soil neither slides along the sheet nor comes off it."), c.bonded);
+  f.number(Key("friction", "",
+               "Shear over normal effective stress at most between soil and sheet: the tangent of the angle "
+               "of wall friction.")
+               .only_if(!c.bonded, "bonded = false"),
+           c.friction, between(0, 10));
+  f.number(Key("adhesion", "Pa", "Shear stress that soil and sheet bear in addition, while they touch.")
+               .only_if(!c.bonded, "bonded = false"),
+           c.adhesion, between(0, stiffest));
+  f.choice(Key("from_end", "",
+               "How the end `from` is held: `free`, `pinned` where it was placed, or `fixed` there, so that "
+               "it cannot turn."),
+           c.from_end, sheet_ends);
+  f.choice(Key("to_end", "", "How the end `to` is held."), c.to_end, sheet_ends);
 }
 
 void declare(Fields& f, LoadingCase& c) {

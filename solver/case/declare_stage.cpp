@@ -37,6 +37,10 @@ void declare(Fields& f, StageCase& c) {
           "and their settlement count from here."),
       c.footing_on);
   f.texts(Key("footing_off", "", "Names of footings that are lifted off."), c.footing_off);
+  f.texts(Key("sheet_on", "",
+              "Names of sheets that are placed, without force, in the soil as it then lies; absent before."),
+          c.sheet_on);
+  f.texts(Key("sheet_off", "", "Names of sheets that are pulled out."), c.sheet_off);
   f.number(Key("ramp", "s",
                "How long these loads take to come, or to go, and the force of these footings to come.")
                .only_if(!c.load_on.empty() || !c.load_off.empty() || !c.footing_on.empty(),
@@ -47,7 +51,8 @@ void declare(Fields& f, StageCase& c) {
   f.texts(Key("set", "",
               "Keys of the case that have another value from here, as [\"water.level = 2\", "
               "\"soil.clay.cohesion = 3e3\"]: of `soil` (but not where it is), `water`, `loading`, `load`, "
-              "`footing`, `formulation` (but not its motion) and `stop`, and time.courant. Times in what is "
+              "`footing`, `sheet`, `formulation` (but not its motion) and `stop`, and time.courant. Times in "
+              "what is "
               "set count from "
               "here."),
           c.set);

@@ -26,6 +26,7 @@ std::string fem_obstacle(const Case& scene) {
     if (b.kind == BoundaryKind::friction)
       return "soil slides along a wall against friction, which is not linear";
   if (!scene.footings.empty()) return "there are footings";
+  if (!scene.sheets.empty()) return "there are sheets";
   if (!scene.loading.gravity_applied && scene.loads.empty())
     return "the scene is weightless, and has no load";
   if (scene.loading.k0_stress) return "the soil starts from the K0 stress";

@@ -63,6 +63,7 @@ void declare(Fields&, WaterStretch&);
 void declare(Fields&, BoundaryCase&);
 void declare(Fields&, LoadCase&);
 void declare(Fields&, FootingCase&);
+void declare(Fields&, SheetCase&);
 void declare(Fields&, FormulationCase&);
 void declare(Fields&, LoadingCase&);
 void declare(Fields&, TimeCase&);

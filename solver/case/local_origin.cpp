@@ -42,6 +42,7 @@ Case moved(Case scene, const Point& by) {
   for (BoundaryCase& b : scene.boundaries) b.from += by, b.to += by;
   for (LoadCase& load : scene.loads) load.from += by, load.to += by;
   for (FootingCase& footing : scene.footings) footing.from += by, footing.to += by;
+  for (SheetCase& sheet : scene.sheets) sheet.from += by, sheet.to += by;
   for (ProbeCase& probe : scene.probes) probe.position += by;
   return scene;
 }

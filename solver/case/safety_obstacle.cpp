@@ -33,6 +33,7 @@ std::string limit_equilibrium_obstacle(const Case& scene) {
   if (scene.water.flows())
     return fmt::format("is for still water, but water.mode is \"{}\"", name(scene.water.mode));
   if (!scene.footings.empty()) return "knows no footing ([[footing]])";
+  if (!scene.sheets.empty()) return "knows no sheet ([[sheet]])";
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/trim.hpp>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "solver/case/change_settings.hpp"
@@ -58,10 +59,10 @@ std::string setting_fault(const std::string& key) {
     return std::ranges::any_of(names, [&](std::string_view n) { return k.ends_with(n); });
   };
   const bool known = k.starts_with("soil.") || k.starts_with("water.") || k.starts_with("loading.") ||
-                     k.starts_with("load.") || k.starts_with("footing.") || k.starts_with("formulation.") ||
-                     k.starts_with("stop.") || k == "time.courant";
+                     k.starts_with("load.") || k.starts_with("footing.") || k.starts_with("sheet.") ||
+                     k.starts_with("formulation.") || k.starts_with("stop.") || k == "time.courant";
   if (!known)
-    return "a stage may set keys of soil, water, loading, load, footing, formulation and stop, and "
+    return "a stage may set keys of soil, water, loading, load, footing, sheet, formulation and stop, and "
            "time.courant";
   if (k.starts_with("soil.") && ends_with_one_of({".name", ".polygon", ".holes", ".velocity",
                                                   ".angular_velocity", ".bending_velocity"}))
@@ -70,6 +71,8 @@ std::string setting_fault(const std::string& key) {
     return "a stage cannot move or rename a load: declare another, and see load_on and load_off";
   if (k.starts_with("footing.") && ends_with_one_of({".name", ".from", ".to"}))
     return "a stage cannot move or rename a footing: declare another, and see footing_on and footing_off";
+  if (k.starts_with("sheet.") && ends_with_one_of({".name", ".from", ".to"}))
+    return "a stage cannot move or rename a sheet: declare another, and see sheet_on and sheet_off";
   if (k == "formulation.motion") return "one form of the motion equation holds throughout";
   if (k == "loading.k0_stress" || k == "loading.gravity")
     return "this holds from the start: see fill_stress for soil that is placed";
@@ -163,6 +166,8 @@ void StagePlan::find_absent() {
   for (const FootingCase& footing : file_.footings)
     footing_on_.push_back(
         !begins_absent(stages_, footing.name, &StageCase::footing_off, &StageCase::footing_on));
+  for (const SheetCase& sheet : file_.sheets)
+    sheet_on_.push_back(!begins_absent(stages_, sheet.name, &StageCase::sheet_off, &StageCase::sheet_on));
   for (const BoundaryCase& b : file_.boundaries)
     support_on_.push_back(b.name.empty() ||
                           !begins_absent(stages_, b.name, &StageCase::support_off, &StageCase::support_on));
@@ -184,14 +189,19 @@ void StagePlan::make_current(double end) {
   Case c = file_;
   c.plan = plan_;
   c.soils = soils(false);
-  c.loads.clear(), c.footings.clear(), c.boundaries.clear();
+  c.loads.clear(), c.footings.clear(), c.sheets.clear(), c.boundaries.clear();
   for (std::size_t i = 0; i < file_.loads.size(); ++i)
     if (load_on_[i]) c.loads.push_back(file_.loads[i]);
   for (std::size_t i = 0; i < file_.footings.size(); ++i)
     if (footing_on_[i]) c.footings.push_back(file_.footings[i]);
+  for (std::size_t i = 0; i < file_.sheets.size(); ++i)
+    if (sheet_on_[i]) c.sheets.push_back(file_.sheets[i]);
   for (std::size_t i = 0; i < file_.boundaries.size(); ++i)
     if (support_on_[i] && lies_on_soil(c, file_.boundaries[i])) c.boundaries.push_back(file_.boundaries[i]);
   c.time.end = end;
+  c.all_from_start =
+      file_.start_from.empty() && std::ranges::all_of(std::span(stages_).first(stage_),
+                                                      [](const StageCase& s) { return s.fill.empty(); });
   if (stage_ > 0) {
     c.loading.k0_stress = stages_[stage_ - 1].fill_stress == FillStress::k0;
     c.start_from.clear();
@@ -208,6 +218,7 @@ Issues StagePlan::go_on(double time) {
   change_soils(stage, key, issues);
   change_loads(stage, key, time, issues);
   change_footings(stage, key, time, issues);
+  change_sheets(stage, key, issues);
   change_supports(stage, key, issues);
   if (!issues.empty()) return issues;
   ++stage_;
@@ -276,7 +287,7 @@ void StagePlan::change_soils(const StageCase& stage, const std::string& key, Iss
 
 namespace {
 
-/// A load or footing that a stage switches on or off: its place among all, or -1 and what is wrong.
+/// A load, footing or sheet that a stage switches on or off: its place among all, or -1 and what is wrong.
 template <class T>
 int place_of(const std::vector<T>& items, std::string_view what, const std::string& name,
              const std::vector<char>& is_on, bool on, const std::string& key, Issues& issues) {
@@ -339,6 +350,17 @@ void StagePlan::change_footings(const StageCase& stage, const std::string& key, 
   }
 }
 
+void StagePlan::change_sheets(const StageCase& stage, const std::string& key, Issues& issues) {
+  const auto change = [&](std::string_view list, const std::vector<std::string>& names, bool on) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const int sheet = place_of(file_.sheets, "sheet", names[i], sheet_on_, on, item(key, list, i), issues);
+      if (sheet >= 0) sheet_on_[sheet] = on;
+    }
+  };
+  change("sheet_on", stage.sheet_on, true);
+  change("sheet_off", stage.sheet_off, false);
+}
+
 void StagePlan::change_supports(const StageCase& stage, const std::string& key, Issues& issues) {
   const auto change = [&](std::string_view list, const std::vector<std::string>& names, bool on) {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -375,6 +397,7 @@ std::vector<std::string> StagePlan::changes() const {
   tell(s.fill_stress == FillStress::k0 ? "places, under K0 stress," : "places", s.fill);
   tell("loads with", s.load_on), tell("unloads", s.load_off);
   tell("places footing", s.footing_on), tell("lifts footing", s.footing_off);
+  tell("places sheet", s.sheet_on), tell("pulls sheet", s.sheet_off);
   tell("adds boundary", s.support_on), tell("removes boundary", s.support_off);
   tell("sets", s.set);
   if (s.reset_displacements) told.push_back("displacements count from here");

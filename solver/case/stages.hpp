@@ -52,6 +52,7 @@ class StagePlan {
                     std::vector<CaseIssue>& issues);
   void change_footings(const StageCase& stage, const std::string& key, double time,
                        std::vector<CaseIssue>& issues);
+  void change_sheets(const StageCase& stage, const std::string& key, std::vector<CaseIssue>& issues);
   void change_supports(const StageCase& stage, const std::string& key, std::vector<CaseIssue>& issues);
   std::vector<SoilCase> soils(bool all) const;
   void make_current(double end);
@@ -59,7 +60,7 @@ class StagePlan {
   Case file_;  ///< with the settings that hold now
   std::vector<StageCase> stages_;
   std::vector<Piece> pieces_;
-  std::vector<char> load_on_, footing_on_, support_on_;
+  std::vector<char> load_on_, footing_on_, sheet_on_, support_on_;
   std::shared_ptr<const Case> plan_;
   std::size_t stage_ = 0;
   int areas_ = 0;  ///< excavate_within of the stages so far

@@ -74,10 +74,10 @@ constexpr auto known = std::to_array<NamedUnit>({
 
 // Those that messages and documents offer, by the dimension of the key.
 constexpr auto usual = std::to_array<std::string_view>(
-    {"m",     "km",      "cm",   "mm",    "ft",    "in",    "s",     "ms",   "min",  "h",    "d",
-     "yr",    "Pa",      "kPa",  "MPa",   "GPa",   "bar",   "kN/m2", "psi",  "psf",  "N/m",  "kN/m",
-     "N/m3",  "kN/m3",   "Pa/m", "kPa/m", "pcf",   "m/s",   "cm/s",  "m/h",  "m/d",  "mm/h", "m/s2",
-     "ft/s2", "degrees", "deg",  "rad",   "rad/s", "deg/s", "1/m",   "1/cm", "1/ft", "%"});
+    {"m",    "km",    "cm",    "mm",  "ft",   "in",    "s",   "ms",   "min",  "h",     "d",       "yr",
+     "Pa",   "kPa",   "MPa",   "GPa", "bar",  "kN/m2", "psi", "psf",  "N/m",  "kN/m",  "N/m3",    "kN/m3",
+     "Pa/m", "kPa/m", "pcf",   "m/s", "cm/s", "m/h",   "m/d", "mm/h", "m/s2", "ft/s2", "degrees", "deg",
+     "rad",  "rad/s", "deg/s", "1/m", "1/cm", "1/ft",  "%",   "N*m",  "kN*m", "MN*m",  "kg/m2",   "t/m2"});
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

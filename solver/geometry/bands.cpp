@@ -50,6 +50,14 @@ std::vector<Line> lines_along(int axis, const Case& scene, const std::vector<Out
     if (along) add({e.a[axis], is_middle(e, tolerance)}, tolerance, lines);
     if (across && is_middle(e, tolerance)) ends.insert(ends.end(), {e.a[axis], e.b[axis]});
   }
+  for (const SheetCase& sheet : scene.sheets) {
+    const bool along = std::abs(sheet.from[axis] - sheet.to[axis]) <= tolerance;
+    if (along && sheet.from[axis] > low - tolerance && sheet.from[axis] < high + tolerance)
+      add({sheet.from[axis], false}, tolerance, lines);
+    for (const double end : {sheet.from[axis], sheet.to[axis]})
+      if (!along && end > low && end < high && !is_near(lines, end, spacing / 2))
+        lines.push_back({end, false});
+  }
   for (double at : {low, high})  // the tip of a wedge
     if (!is_near(lines, at, spacing / 2)) lines.push_back({at, false});
   for (double at : ends)

@@ -23,7 +23,8 @@ enum class FreeSurfaces {
 /// bands fit between the straight stretches of outlines along them: n between two walls or borders of soils,
 /// n between two free surfaces (both in the middle of a band), n + 1/2 between a wall and a free surface.
 /// Where such a free surface ends (a toe, a crest) there is the middle of a band too, unless it is near
-/// another line. With FreeSurfaces::at_ends free surfaces are as walls: n bands between any two stretches.
+/// another line. Bands end at sheets, and where these end. With FreeSurfaces::at_ends free surfaces are as
+/// walls: n bands between any two stretches.
 std::vector<Band> bands_along(int axis, const Case& scene, const std::vector<Region>& regions,
                               FreeSurfaces free_surfaces);
 

@@ -150,8 +150,8 @@ Model build_model(const Case& case_as_drawn) {
     model.pore_water = water;
   }
   model.walls = walls_of(scene, model.particles.position);
-  model.visibility =
-      Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length, model.spacing);
+  model.visibility = Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length,
+                                model.spacing, scene.sheets);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {
     const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
     model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));

@@ -28,6 +28,17 @@ struct Frame {
   std::vector<FrameField> fields;
 };
 
+/// A sheet at one instant, node by node.
+struct SheetFrame {
+  struct Node {
+    double x = 0, y = 0;                      ///< where it was placed [m]
+    double u_x = 0, u_y = 0;                  ///< its displacement since then [m]
+    double axial = 0, shear = 0, moment = 0;  ///< per metre of thickness [N/m, N/m, N]
+  };
+  std::string name;
+  std::vector<Node> nodes;
+};
+
 /// Probe readings over time: one row per recorded instant.
 struct History {
   std::vector<std::string> columns;  ///< "time", then "<probe>.<quantity>", SI units
@@ -125,6 +136,13 @@ struct Summary {
     double width = 0;             ///< of the soil's surface that moves with it [m]
   };
   std::map<std::string, Footing> footings;  ///< at the end
+  /// The largest of what a sheet carries, with its sign, per metre of thickness.
+  struct Sheet {
+    double moment = 0;            ///< [N]
+    double shear = 0, axial = 0;  ///< [N/m]
+    double displacement = 0;      ///< [m]
+  };
+  std::map<std::string, Sheet> sheets;  ///< at the end
   /// A factor of safety.
   struct Safety {
     double stable_at = 0;          ///< largest with which the soil rests; 0: none was found
@@ -142,6 +160,7 @@ struct Summary {
     double largest_displacement = 0;               ///< at its end, as displacements count [m]
     std::map<std::string, Probe> probes = {};      ///< at its end
     std::map<std::string, Footing> footings = {};  ///< at its end
+    std::map<std::string, Sheet> sheets = {};      ///< at its end
     std::optional<Safety> safety = {};             ///< of its last state, where the stage asks for it
   };
   std::vector<Stage> stages;                   ///< that have been computed; empty where the case has none

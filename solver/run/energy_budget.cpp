@@ -14,7 +14,7 @@ bool is_counted(const Simulation& s) {
   const LoadingCase& loading = s.scene().loading;
   const bool in_drained_flow = s.follows_flow() && s.water_in_motion() == nullptr;
   return s.dynamics().flow() != nullptr && !in_drained_flow && s.scene().footings.empty() &&
-         !loading.adaptive_damping && loading.damping == 0;
+         s.scene().sheets.empty() && !loading.adaptive_damping && loading.damping == 0;
 }
 
 }  // namespace

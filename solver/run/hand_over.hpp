@@ -6,6 +6,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
+#include "solver/run/sheets.hpp"
 
 namespace porosph {
 
@@ -15,6 +16,7 @@ struct HandedOver {
   Particles particles;                             ///< velocities at the present instant
   Point origin = Point::Zero();                    ///< of their positions [m]
   std::map<std::string, double> settlements = {};  ///< of the footings, by their names [m]
+  std::map<std::string, SheetState> sheets = {};   ///< by their names
 };
 
 /// How a simulation begins, where it does not at rest at t = 0.

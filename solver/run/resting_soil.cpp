@@ -43,7 +43,7 @@ void RestingSoil::relax(int sweeps, double time) {
     before_.clear();
     if (k < sweeps && sweeps_ % Relaxation::steps_between == 0) before_ = accelerations_;
     const Kick kick = full_kick(relaxation_.damping, dt_);
-    surface_.hold(p, kick, dt_, time, accelerations_);
+    surface_.hold(model_, kick, dt_, time, accelerations_);
     if (k == sweeps) return;
     relaxed_step(model_, dynamics_, kick, dt_, accelerations_);
     ++sweeps_;

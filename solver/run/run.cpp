@@ -58,14 +58,12 @@ class Equilibrium {
 };
 
 /// Of all stages, there at present or not.
-const std::vector<FootingCase>& all_footings(const Simulation& s) {
-  return s.scene().plan ? s.scene().plan->footings : s.scene().footings;
-}
+const Case& whole_case(const Simulation& s) { return s.scene().plan ? *s.scene().plan : s.scene(); }
 
 std::vector<double> history_row(Simulation& s) {
-  // For the footings' forces at this instant. Elsewhere the next step asks for them, within the time that
-  // counts.
-  if (!s.footings().empty()) s.accelerations();
+  // For the forces of footings and sheets at this instant. Elsewhere the next step asks for them, within the
+  // time that counts.
+  if (!s.footings().empty() || !s.sheets().empty()) s.accelerations();
   std::vector<double> row = {s.time()};
   if (const auto drained = s.drained()) row.push_back(*drained);
   if (s.seepage() != nullptr) {
@@ -76,12 +74,21 @@ std::vector<double> history_row(Simulation& s) {
     const std::vector<double> values = probe.read(s.model().particles).values();
     row.insert(row.end(), values.begin(), values.end());
   }
-  for (const FootingCase& footing : all_footings(s)) {
+  for (const FootingCase& footing : whole_case(s).footings) {
     const auto there = std::ranges::find(s.footings(), footing.name, &Footing::name);
     if (there == s.footings().end())
       row.insert(row.end(), 3, std::nan(""));
     else
       row.insert(row.end(), {there->force(), there->shear(), there->settlement(s.model().particles)});
+  }
+  for (const SheetCase& sheet : whole_case(s).sheets) {
+    const auto there = std::ranges::find(s.sheets(), sheet.name, &Sheet::name);
+    if (there == s.sheets().end()) {
+      row.insert(row.end(), 4, std::nan(""));
+      continue;
+    }
+    const Sheet::Extremes most = extremes_of(there->profile());
+    row.insert(row.end(), {most.section.moment, most.section.shear, most.section.axial, most.displacement});
   }
   return row;
 }
@@ -98,13 +105,14 @@ double energy_growth(const Simulation::Energy& now, const RunProgress& progress)
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
-/// level that moves or presses on a face, a load that changes, and a footing: there energy tells nothing.
+/// level that moves or presses on a face, a load that changes, a footing and a sheet: there energy tells
+/// nothing.
 bool keeps_energy(const Simulation& s) {
   const Case& scene = s.scene();
   const bool loads_change =
       std::ranges::any_of(scene.loads, [](const LoadCase& load) { return !load.over_time.empty(); });
-  return !loads_change && scene.footings.empty() && scene.water.level_over_time.empty() &&
-         !scene.water.flows() && s.model().loads.empty() &&
+  return !loads_change && scene.footings.empty() && scene.sheets.empty() &&
+         scene.water.level_over_time.empty() && !scene.water.flows() && s.model().loads.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
 
@@ -159,9 +167,12 @@ std::vector<std::string> history_columns(const Simulation& simulation) {
   }
   for (const Probe& probe : simulation.probes())
     for (const std::string& quantity : probe_quantities()) columns.push_back(probe.name() + "." + quantity);
-  for (const FootingCase& footing : all_footings(simulation))
+  for (const FootingCase& footing : whole_case(simulation).footings)
     for (const char* quantity : {"Force", "Shear", "Settlement"})
       columns.push_back(footing.name + "." + quantity);
+  for (const SheetCase& sheet : whole_case(simulation).sheets)
+    for (const char* quantity : {"Moment", "Shear", "Axial", "Displacement"})
+      columns.push_back(sheet.name + "." + quantity);
   return columns;
 }
 

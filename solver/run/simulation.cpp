@@ -85,6 +85,10 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
     const auto there = beginning.state->settlements.find(footing.name());
     footing.place(model_.particles, there == beginning.state->settlements.end() ? 0 : there->second);
   }
+  for (Sheet& sheet : surface_.sheets) {
+    const auto there = beginning.state->sheets.find(sheet.name());
+    sheet.place(model_.particles, there == beginning.state->sheets.end() ? nullptr : &there->second);
+  }
 }
 
 HandedOver Simulation::hand_over() {
@@ -92,6 +96,7 @@ HandedOver Simulation::hand_over() {
   state.particles.velocity = velocities();
   for (const Footing& footing : surface_.footings)
     state.settlements[footing.name()] = footing.settlement(model_.particles);
+  for (const Sheet& sheet : surface_.sheets) state.sheets[sheet.name()] = sheet.state(model_.particles);
   return state;
 }
 
@@ -199,7 +204,10 @@ void Simulation::settle() {
                                time(), unbalanced_force_ratio(), largest_displacement())});
 }
 
-void Simulation::reduce_strength(double factor) { porosph::reduce_strength(model_, scene_, factor); }
+void Simulation::reduce_strength(double factor) {
+  porosph::reduce_strength(model_, scene_, factor);
+  for (Sheet& sheet : surface_.sheets) sheet.reduce_strength(factor);
+}
 
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;
@@ -226,12 +234,12 @@ void Simulation::sum_forces() {
   if (water != nullptr) water->add_force(a);
   surface_.press(model_, time(), a);
   if (flow_.seepage) flow_.seepage->add_weight(model_.particles, model_.gravity, a);
-  if (water != nullptr && !surface_.footings.empty()) forces_.unheld = a;
-  hold_footings(a);
+  if (water != nullptr && surface_.hold_soil()) forces_.unheld = a;
+  hold_soil(a);
 }
 
-void Simulation::hold_footings(std::span<Vec2> accelerations) {
-  surface_.hold(model_.particles, next_kick(), step_length(), clock_.then(), accelerations);
+void Simulation::hold_soil(std::span<Vec2> accelerations) {
+  surface_.hold(model_, next_kick(), step_length(), clock_.then(), accelerations);
 }
 
 std::vector<Vec2> Simulation::velocities() {
@@ -256,6 +264,7 @@ void Simulation::advance_in_motion() {
   const std::vector<Vec2> before = measure ? forces_.accelerations : std::vector<Vec2>();
   if (motion_.water && !change_pressure()) return;
   drift();
+  for (Sheet& sheet : surface_.sheets) sheet.take_step();
   forces_.valid = false;
   if (motion_.energy_when_lost) count_changing_loads();
   clock_.go_on();
@@ -300,6 +309,7 @@ void Simulation::visit(StateArchive& state) {
   state.value("closures", counts_then.closures);
   visit_particles(state, model_.particles);
   for (Footing& footing : surface_.footings) footing.visit(state);
+  for (Sheet& sheet : surface_.sheets) sheet.visit(state);
   good_.visit(state, model_.particles);
   relaxation_.visit(state, "relaxation");
   dynamics_->visit(state);

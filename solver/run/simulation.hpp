@@ -64,6 +64,7 @@ class Simulation {
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
   const std::vector<Footing>& footings() const { return surface_.footings; }
+  const std::vector<Sheet>& sheets() const { return surface_.sheets; }
   const Dynamics& dynamics() const { return *dynamics_; }
   const Consolidation* consolidation() const { return flow_.coupled.get(); }  ///< null unless coupled
   const TransientWater* seepage() const { return flow_.seepage.get(); }       ///< null unless transient
@@ -145,7 +146,7 @@ class Simulation {
   void sum_forces();
   void show_excess();
   bool change_pressure();
-  void hold_footings(std::span<Vec2> accelerations);
+  void hold_soil(std::span<Vec2> accelerations);
   void settle();
   void take_accelerations_at_rest();
   void visit_motion(StateArchive& state);
@@ -175,7 +176,7 @@ class Simulation {
   /// At the present instant, one per particle [m/s2].
   struct Forces {
     std::vector<Vec2> accelerations;
-    std::vector<Vec2> unheld;  ///< without what footings do; where pressures change in a step
+    std::vector<Vec2> unheld;  ///< without what footings and sheets do; where pressures change in a step
     bool valid = false;
   };
 

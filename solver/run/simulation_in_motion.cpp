@@ -81,7 +81,7 @@ void Simulation::show_excess() {
 /// The pressure at the end of the step acts in it; footings hold against both. Returns false where pressure
 /// and soil have parted.
 bool Simulation::change_pressure() {
-  const std::vector<Vec2> held = surface_.footings.empty() ? std::vector<Vec2>() : forces_.accelerations;
+  const std::vector<Vec2> held = surface_.hold_soil() ? forces_.accelerations : std::vector<Vec2>();
   try {
     motion_.water->add_change(next_kick(), step_length(), forces_.accelerations);
   } catch (const DynamicWater::Lost& lost) {
@@ -96,7 +96,7 @@ bool Simulation::change_pressure() {
   }
   if (held.empty()) return true;
   for (std::size_t a = 0; a < held.size(); ++a) forces_.accelerations[a] += forces_.unheld[a] - held[a];
-  hold_footings(forces_.accelerations);
+  hold_soil(forces_.accelerations);
   return true;
 }
 

@@ -176,12 +176,18 @@ void keep_force_and_moment(const std::vector<double>& along, const std::vector<c
 
 }  // namespace
 
-std::vector<Vec2> surface_vectors(const Case& scene, const Model& model) {
+std::vector<Vec2> vectors_with_sheets(const Case& scene, const Model& model) {
   const std::vector<Vec2> x = accelerations_under({-1, 0, 0, 0}, scene.formulation, model);
   const std::vector<Vec2> y = accelerations_under({0, -1, 0, 0}, scene.formulation, model);
   std::vector<Vec2> vectors(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) vectors[i] = model.particles.mass[i] * Vec2(x[i].x(), y[i].y());
   return vectors;
+}
+
+std::vector<Vec2> surface_vectors(const Case& scene, const Model& model) {
+  Model bare = model;
+  bare.visibility = model.visibility.without_sheets();
+  return vectors_with_sheets(scene, bare);
 }
 
 StretchOfParticles particles_on(const Point& start, const Point& end, const Vec2& normal, const Case& scene,

@@ -21,8 +21,12 @@ struct LoadedParticles {
 };
 
 /// The surface vector n_a of each particle [m]: minus its force under a unit pressure everywhere, by the
-/// case's own form. A traction sigma n_a is then in balance with a uniform stress sigma to rounding.
+/// case's own form, as if there were no sheets. A traction sigma n_a is then in balance with a uniform stress
+/// sigma to rounding.
 std::vector<Vec2> surface_vectors(const Case& scene, const Model& model);
+
+/// The same with both faces of all sheets.
+std::vector<Vec2> vectors_with_sheets(const Case& scene, const Model& model);
 
 /// The particles whose surface lies on a straight stretch of the outline. Where the outline turns by less
 /// than 45 degrees beside it, as a curve of short stretches does, each has its own normal, that of its

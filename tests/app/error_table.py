@@ -63,6 +63,14 @@ from = [1, 2]
 to = [3, 2]
 force = 1e4
 """
+SHEET = """[[sheet]]
+name = "wall"
+from = [2, 2]
+to = [2, 0.5]
+bending_stiffness = 1e6
+axial_stiffness = 1e8
+mass = 100
+"""
 OUTLINE = "[[0, 0], [4, 0], [4, 2], [0, 2]]"
 
 # What is wrong, as a person would say it; then the text of the case that is replaced, and by what.
@@ -183,6 +191,15 @@ OF_THE_GROUND = [
     ("a footing that jumps", "[time]", FOOTING.replace("force = 1e4", "settlement = 0.1") + "[time]"),
     ("a footing on a wall", "[time]", FOOTING.replace(", 2]", ", 0]") + "[time]"),
     ("a footing in the paper's form", "[time]", FOOTING + "[formulation]\nmotion = \"proposed\"\n[time]"),
+    ("a sheet on a slant", "[time]", SHEET.replace("[2, 0.5]", "[3, 0.5]") + "[time]"),
+    ("a sheet shorter than two spacings", "[time]", SHEET.replace("[2, 0.5]", "[2, 1.5]") + "[time]"),
+    ("a sheet in the air", "[time]", SHEET.replace("[2, ", "[7, ") + "[time]"),
+    ("a sheet on a wall", "[time]", SHEET.replace("[2, 2]", "[0, 0]").replace("[2, 0.5]", "[4, 0]") + "[time]"),
+    ("a sheet in the paper's form", "[time]", SHEET + "[formulation]\nmotion = \"proposed\"\n[time]"),
+    ("a sheet in a lattice", "spacing = 0.5", "spacing = 0.5\narrangement = \"lattice\"\n" + SHEET),
+    ("two sheets close together", "[time]", SHEET + SHEET.replace("wall", "other").replace("[2, ", "[2.5, ") + "[time]"),
+    ("a sheet with the name of a probe", "[time]", SHEET.replace("wall", "A") + "[time]"),
+    ("friction of a sheet that is bonded", "[time]", SHEET + "bonded = true\nfriction = 0.3\n[time]"),
     ("a footing that settles on coupled water", "[time]",
      FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]")
      + "[water]\nmode = \"undrained\"\nlevel = 2\n[time]"),
@@ -227,6 +244,10 @@ IN_A_STAGE = [
     ("a factor of safety of a footing that is pushed", "[[boundary]]", STRENGTH + stage(
         'safety = true', FILL + LOAD + PLATE.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]"))),
     ("a stage that moves a footing", "[[boundary]]", stage('set = ["footing.plate.from = [0, 2]"]', FILL + LOAD + PLATE)),
+    ("a sheet that is not there", "[[boundary]]", stage('sheet_off = ["wal"]', FILL + LOAD + SHEET)),
+    ("a sheet that is there already", "[[boundary]]",
+     stage('sheet_off = ["wall"]\nsheet_on = ["wall", "wall"]', FILL + LOAD + SHEET)),
+    ("a stage that moves a sheet", "[[boundary]]", stage('set = ["sheet.wall.to = [2, 1]"]', FILL + LOAD + SHEET)),
     ("a ramp without a load", "[[boundary]]", stage("ramp = 1")),
     ("a boundary that is not there", "[[boundary]]", stage('support_off = ["left"]')),
     ("a setting of a stage with a typing mistake", "[[boundary]]", stage('set = ["water.levle = 1"]')),
@@ -268,6 +289,8 @@ ON_THE_COMMAND_LINE = [
         "staged.toml": CASE.replace("[[boundary]]", STRENGTH + "[[boundary]]") + '[[stage]]\nname = "next"\nduration = 1\n'}),
     ("limit equilibrium under a footing", "safety footing.toml --method both", {
         "footing.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING + "[[boundary]]")}),
+    ("limit equilibrium beside a sheet", "safety sheet.toml --method both", {
+        "sheet.toml": CASE.replace("[[boundary]]", STRENGTH + SHEET + "[[boundary]]")}),
     ("a factor of safety of a footing that is pushed", "safety pushed.toml", {
         "pushed.toml": CASE.replace("[[boundary]]", STRENGTH + FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]") + "[[boundary]]")}),
     ("another case's results in the folder", "run case.toml --out other", {"other/case.toml": CASE.replace("0.1", "0.2"),

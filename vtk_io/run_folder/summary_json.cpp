@@ -83,6 +83,13 @@ Json to_json(const Summary::Footing& footing) {
   return json;
 }
 
+Json to_json(const Summary::Sheet& sheet) {
+  Json json;
+  put(json, "moment", sheet.moment), put(json, "shear", sheet.shear);
+  put(json, "axial", sheet.axial), put(json, "displacement", sheet.displacement);
+  return json;
+}
+
 template <typename Value>
 Json object_of(const std::map<std::string, Value>& entries) {
   Json object = Json::object();
@@ -107,6 +114,7 @@ Json to_json(const Summary::Stage& stage) {
   put(json, "largest_displacement", stage.largest_displacement);
   json["probes"] = object_of(stage.probes);
   if (!stage.footings.empty()) json["footings"] = object_of(stage.footings);
+  if (!stage.sheets.empty()) json["sheets"] = object_of(stage.sheets);
   if (stage.safety) json["safety"] = to_json(*stage.safety);
   return json;
 }
@@ -192,6 +200,7 @@ Json to_json(const Summary& summary) {
   if (summary.transient) json["transient_seepage"] = to_json(*summary.transient);
   json["probes"] = object_of(summary.probes);
   if (!summary.footings.empty()) json["footings"] = object_of(summary.footings);
+  if (!summary.sheets.empty()) json["sheets"] = object_of(summary.sheets);
   for (const Summary::Stage& stage : summary.stages) json["stages"].push_back(to_json(stage));
   if (!summary.errors.empty()) json["errors"] = object_of(summary.errors);
   if (summary.finite_elements) json["finite_elements"] = to_json(*summary.finite_elements);
@@ -361,6 +370,20 @@ std::map<std::string, Summary::Footing> footings_from(const Object& json) {
   return footings;
 }
 
+std::map<std::string, Summary::Sheet> sheets_from(const Object& json) {
+  std::map<std::string, Summary::Sheet> sheets;
+  if (!json.has("sheets")) return sheets;
+  const Object all = json.object("sheets");
+  for (const auto& name : all.keys()) {
+    const Object s = all.object(name);
+    sheets[name] = {.moment = s.number("moment"),
+                    .shear = s.number("shear"),
+                    .axial = s.number("axial"),
+                    .displacement = s.number("displacement")};
+  }
+  return sheets;
+}
+
 Summary::Safety safety_from(const Object& json) {
   return {.stable_at = json.number("stable_at"),
           .fails_at = json.number("fails_at"),
@@ -379,6 +402,7 @@ Summary::Stage stage_from(const Object& json) {
           .largest_displacement = json.number("largest_displacement"),
           .probes = probes_from(json.object("probes")),
           .footings = footings_from(json),
+          .sheets = sheets_from(json),
           .safety = json.has("safety") ? std::optional(safety_from(json.object("safety"))) : std::nullopt};
 }
 
@@ -461,6 +485,7 @@ Summary summary_from(const Object& json) {
   summary.energy_growth = json.number("energy_growth");
   summary.probes = probes_from(json.object("probes"));
   summary.footings = footings_from(json);
+  summary.sheets = sheets_from(json);
   if (json.has("stages"))
     for (const Object& stage : json.objects("stages")) summary.stages.push_back(stage_from(stage));
   if (json.has("errors")) summary.errors = errors_from(json.object("errors"));

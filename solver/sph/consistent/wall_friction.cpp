@@ -25,10 +25,10 @@ Mat2 added_by_friction(const Mat2& ghost, const Mat2& own, double shear, const W
 
 }  // namespace
 
+double friction_memory(const Model& model) { return lag * model.smoothing_length / model.wave_speed; }
+
 WallFriction::WallFriction(const Model& model)
-    : spacing_(model.spacing),
-      smoothing_length_(model.smoothing_length),
-      memory_(lag * model.smoothing_length / model.wave_speed) {
+    : spacing_(model.spacing), smoothing_length_(model.smoothing_length), memory_(friction_memory(model)) {
   const std::vector<double> zero(model.particles.size(), 0);
   for (std::size_t w = 0; w < model.walls.size(); ++w)
     if (model.walls[w].kind == BoundaryKind::friction)

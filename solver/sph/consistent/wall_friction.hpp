@@ -9,6 +9,9 @@
 
 namespace porosph {
 
+/// The time in which friction follows the pressure [s].
+double friction_memory(const Model& model);
+
 /// The row of particles at a wall drags it along a spring of stiffness G / h, whose stress slips at the
 /// coefficient times the normal effective stress at the wall. Ghosts behind it, which a frictionless wall
 /// gives the opposite shear stress of the soil, get that and twice the spring's: the mean on the wall is the
