@@ -177,11 +177,11 @@ TEST_CASE("a block that keeps its water fails in motion at its undrained strengt
 namespace {
 
 /// The same, pressed on over a day, at rest until it fails.
-Case slowly_pressed_block() {
+Case slowly_pressed_block(double motion_time) {
   constexpr double day = 86400;
   Case scene = pressed_block(1.25);
   scene.water.coupling.motion = WaterMotion::automatic;
-  scene.water.coupling.motion_time = 1, scene.water.coupling.motion_interval = 0.1;
+  scene.water.coupling.motion_time = motion_time, scene.water.coupling.motion_interval = 0.1;
   scene.loads[0].over_time = {{0, 0}, {day, 1}};
   scene.time.end = scene.output.interval = day;
   return scene;
@@ -191,7 +191,8 @@ Case slowly_pressed_block() {
 
 TEST_CASE("a block that keeps its water loses equilibrium at its undrained strength, and moves from there",
           "[water][dynamic][automatic]") {
-  Simulation s(slowly_pressed_block());
+  constexpr double motion_time = 0.35;  // 1 s later it is crushed
+  Simulation s(slowly_pressed_block(motion_time));
   double at_rest = 0;
   while (s.step() < s.last_step() && !s.instability()) {
     if (!s.in_motion()) at_rest = s.largest_displacement();
@@ -200,20 +201,20 @@ TEST_CASE("a block that keeps its water loses equilibrium at its undrained stren
   REQUIRE(s.in_motion());
   if (s.instability()) FAIL(s.instability()->message);
   CHECK(1.25 * s.failed_at() / 86400 == Approx(1).margin(0.02));
-  CHECK(s.time() == Approx(s.failed_at() + 1).margin(1e-3));
+  CHECK(s.time() == Approx(s.failed_at() + motion_time).margin(1e-3));
   CHECK(s.largest_displacement() > 3 * at_rest);
   const Summary::EnergyBudget energy = energy_budget(s, 0).value();
   CAPTURE(s.failed_at(), at_rest, s.largest_displacement(), energy.released, energy.kinetic, energy.elastic,
           energy.plastic, energy.control, energy.water, energy.walls, energy.unaccounted);
   CHECK(energy.released > 0);
-  CHECK(energy.plastic > 0);
+  CHECK(std::abs(energy.unaccounted) < 0.01 * energy.released);
   CHECK(std::abs(s.water_in_motion()->imbalance()) < 1e-12);
   CHECK(s.water_in_motion()->misfit() < 1e-4);
 }
 
 TEST_CASE("soil that has lost its equilibrium goes on from a kept state to the same bits",
           "[water][dynamic][automatic]") {
-  Simulation first(slowly_pressed_block()), second(slowly_pressed_block());
+  Simulation first(slowly_pressed_block(1)), second(slowly_pressed_block(1));
   const int steps_after = GENERATE(-1, 0, 40);
   while (!first.in_motion() && !(steps_after < 0 && first.time() > 60000)) first.advance();
   for (int k = 0; k < steps_after; ++k) first.advance();
