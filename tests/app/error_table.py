@@ -150,6 +150,10 @@ IN_THE_FLOW = [
     ("a table of retention that rises", WEIGHT,
      PERMEABLE + 'retention = { model = "table", saturation = [[0, 1], [1, 0.2], [2, 0.3]], '
      'permeability = [[0, 1], [1, 0.01]] }\n' + TRANSIENT + ON_TOP),
+    ("permeability that follows the pores of soil that is rigid to the flow", WEIGHT,
+     PERMEABLE + 'permeability_law = "kozeny_carman"\n' + STEADY + CLOSED + ON_TOP),
+    ("a law of permeability that is not known", WEIGHT,
+     PERMEABLE + 'permeability_law = "kozeny"\n[water]\nmode = "coupled"\nlevel = 3\n'),
     ("a well wider than its particle", WEIGHT,
      PERMEABLE + TRANSIENT + '[[water.drain]]\nname = "well"\nfrom = [2, 1]\nradius = 0.1\n' + ON_TOP),
     ("the radius of a drain along a line", WEIGHT,
