@@ -354,9 +354,9 @@ void draw_sheet(Canvas& canvas, const Plot& plot, const DrawnSheet& sheet) {
       const Point off = longest * sheet.moments[i] / std::abs(*largest) * right;
       ends.push_back({line[i].x + off.x(), line[i].y + off.y()});
     }
-    std::vector<Pixel> area = line;
-    area.insert(area.end(), ends.rbegin(), ends.rend());
-    canvas.polygon(area, {.colour = red, .opacity = 0.25});
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      canvas.polygon(std::array{line[i], line[i + 1], ends[i + 1], ends[i]},
+                     {.colour = red, .opacity = 0.25});
     canvas.line(ends, {.colour = red, .width = 1.4});
     const Pixel tip = ends[static_cast<std::size_t>(largest - sheet.moments.begin())];
     const bool rightwards = right.x() * *largest >= 0;

@@ -34,7 +34,7 @@ TEST_CASE("The number of unknowns is known before the mesh is made") {
     for (const double triangles : {500.0, 2000.0, 5000.0}) {
       const double h = fem_edge(scene, triangles);
       const Mesh mesh = mesh_case(scene, h);
-      const int unknowns = constrain(scene.boundaries, mesh, place_nodes(mesh)).unknowns;
+      const int unknowns = constrain(scene, mesh, place_nodes(mesh)).unknowns;
       CAPTURE(triangles, unknowns);
       const FemDemand demand = fem_demand(scene, h);
       CHECK(demand.triangles == Approx(static_cast<double>(mesh.triangles.size())).epsilon(0.03));
