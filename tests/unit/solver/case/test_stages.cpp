@@ -72,7 +72,7 @@ TEST_CASE("stages that cannot be") {
       {"set = ['soil.sand.polygon = [[0,0],[1,0],[1,1]]']\n",
        "a stage cannot move or rename a soil: see excavate and fill"},
       {"set = ['particles.spacing = 1']\n",
-       "a stage may set keys of soil, water, loading, load, footing, formulation and stop, and time.courant"},
+       "a stage may set keys of soil, water, loading, load, footing, sheet, formulation and stop, and time.courant"},
       {"set = ['soil.sand.law = \"tresca\"']\n", "undrained_strength"},
       {"duration2 = 1\n", "key 'stage[0].duration2': is not known; did you mean 'duration'?"},
   }));
