@@ -156,6 +156,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile)
     kernels_.accelerate(arrays_, tile, out.data()->data());
   if (friction_.active() && flow_.active()) friction_.sample(reference_, model_.particles);
+  fluxes_.add_along_interfaces(reference_, model_.particles, out);
   add_contact(model_, surroundings_.strangers(model_), out);
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);
@@ -181,9 +182,12 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
     kernels_.rates(arrays_, tile, rate.data()->data());
     const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
     for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
-      out[a] = matrix(rate[a - first]) * inverse(fluxes_.deformation(a));
-      if (!reference_.own_sides.empty() && reference_.own_sides.place[a] >= 0)
-        out[a] = reference_.own_sides.rate_of(reference_.own_sides.place[a], out[a]);
+      const OwnSides& sides = reference_.own_sides;
+      const std::int32_t place = sides.empty() ? -1 : sides.place[a];
+      Mat2 of_sum = matrix(rate[a - first]);
+      if (place >= 0) of_sum += fluxes_.along_interfaces().change(place) * sides.tangent(place).transpose();
+      out[a] = of_sum * inverse(fluxes_.deformation(a));
+      if (place >= 0) out[a] = sides.rate_of(place, out[a]);
     }
   }
 }

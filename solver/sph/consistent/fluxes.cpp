@@ -6,7 +6,9 @@ namespace porosph {
 
 Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic_control,
                const LooseParticles* loose, SparselyWritten<Record> room)
-    : records_(std::move(room)), behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows), loose) {
+    : records_(std::move(room)),
+      behind_walls_(r, std::ranges::any_of(model.soils, &Soil::flows), loose),
+      along_interfaces_(r, model) {
   const Particles& p = model.particles;
   const std::size_t all = r.points.size();
   deformation_.assign(p.size(), Mat2::Identity());
@@ -20,6 +22,7 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
   if (records_.size() < all) SparselyWritten<Record>(all + all / 8).swap(records_);  // ghosts come and go
   mirrored_.assign(p.size(), r.closed() ? 1 : 0);
   behind_walls_.mark_used(r, mirrored_);
+  keep_piola_of(r.own_sides.particle);
   piola_.resize(all);
   ghost_positions_.resize(r.ghosts.size());
 }
@@ -53,6 +56,7 @@ void Fluxes::spread(const ReferenceConfiguration& r, std::array<std::vector<doub
 template <Mirrors how>
 void Fluxes::take_velocities(const ReferenceConfiguration& r, std::span<const Vec2> velocities) {
   spread<how>(r, velocity_, [&](std::size_t a) { return velocities[a]; });
+  along_interfaces_.take_velocities(velocity_);
 }
 template void Fluxes::take_velocities<Mirrors::motion>(const ReferenceConfiguration&, std::span<const Vec2>);
 template void Fluxes::take_velocities<Mirrors::direction>(const ReferenceConfiguration&,
@@ -154,6 +158,7 @@ void Fluxes::connect(ConsistentArrays& c, const ReferenceConfiguration& r) {
   c.fluxes.records = records_.data();
   c.fluxes.mirrored = mirrored_.data();
   piola_.connect(c.fluxes.piola);
+  along_interfaces_.connect(c.state.own_sides);
 }
 
 void Fluxes::visit(StateArchive& state, const ReferenceConfiguration& r) {

@@ -8,6 +8,7 @@
 
 #include "solver/particles/state.hpp"
 #include "solver/space/zero_pages.hpp"
+#include "solver/sph/consistent/along_interfaces.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/consistent/stress_behind_walls.hpp"
 #include "solver/sph/consistent/wall_friction.hpp"
@@ -41,6 +42,13 @@ class Fluxes {
   /// All walls mirror them, so that their force is the adjoint of the rate of volume.
   void take_pressures_alone(const ReferenceConfiguration& reference, const std::vector<double>& fill,
                             const Fluxes& soil, std::span<const double> excess);
+
+  const AlongInterfaces& along_interfaces() const { return along_interfaces_; }
+  /// Adds their part to the accelerations [m/s2], after prepare_forces().
+  void add_along_interfaces(const ReferenceConfiguration& reference, const Particles& particles,
+                            std::span<Vec2> accelerations) {
+    along_interfaces_.add_forces(reference, piola_, particles.fill, accelerations);
+  }
 
   Mat2 deformation(std::size_t a) const { return deformation_[a]; }  ///< F of a particle
 
@@ -77,6 +85,7 @@ class Fluxes {
   PlaneTensors piola_;                             ///< P of those, and of the ghosts [Pa]
   std::vector<Vec2> ghost_positions_;              ///< where the ghosts are now [m]
   StressBehindWalls behind_walls_;
+  AlongInterfaces along_interfaces_;
 };
 
 }  // namespace porosph

@@ -52,6 +52,7 @@ class Finder {
           static_cast<std::int32_t>(std::ranges::find(stiffness_, stiffness_[s]) - stiffness_.begin()));
   }
 
+  const std::vector<std::int32_t>& kinds() const { return kind_; }
   bool one_stiffness() const { return std::ranges::count(kind_, 0) == std::ssize(kind_); }
 
   bool sees_another_soil(std::int32_t a) const {
@@ -236,6 +237,7 @@ OwnSides find_own_sides(const ReferenceConfiguration& reference, const Model& mo
   OwnSides sides;
   const Finder finder(reference, model);
   if (finder.one_stiffness()) return sides;
+  sides.kind = finder.kinds();
   const auto n = static_cast<std::int32_t>(reference.particles());
   sides.place.assign(n, -1);
   for (std::int32_t a = 0; a < n; ++a)

@@ -23,8 +23,10 @@ struct OwnSides {
   std::array<std::vector<double>, 4> tie;        ///< [Pa]
   std::array<std::vector<double>, 2> along;      ///< t, the unit vector along the interface
   std::vector<std::int32_t> place;               ///< of each particle of the model, or -1; empty in one soil
+  std::vector<std::int32_t> kind;                ///< of each soil: the first of the same stiffness
 
   bool empty() const { return particle.empty(); }
+  Vec2 tangent(std::size_t k) const { return {along[0][k], along[1][k]}; }  ///< of the particle at this place
   /// A : m of the particle at this place.
   Mat2 of(std::size_t place, const Mat2& m) const;
   /// The same of a velocity gradient, whose rotation stays that of the sum.

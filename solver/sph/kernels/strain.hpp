@@ -42,6 +42,21 @@ LargestChange step_by_law(const ConsistentArraysIn<Space>& c, const TileStep<Spa
   return change;
 }
 
+/// Where soils meet, the derivative along the interface is that of the own soil.
+template <class Space>
+void take_own_along(const ConsistentArraysIn<Space>& c, const TileRange& tile, Row* rate) {
+  if constexpr (std::is_same_v<Space, Plane>) {
+    const OwnSideView& sides = c.state.own_sides;
+    for_each_soil(c.state.soils, tile.first, tile.last,
+                  [&](std::int32_t from, std::int32_t to, const LawView&, std::int32_t place) {
+                    if (place < 0) return;
+                    for (std::int32_t a = from; a < to; ++a, ++place)
+                      for (int k = 0; k < 4; ++k)
+                        *rate[k].of(a, tile.first) += sides.change[k / 2][place] * sides.along[k % 2][place];
+                  });
+  }
+}
+
 template <class Space>
 void keep_for_neighbours(const FluxViewIn<Space>& f, const TileRange& tile, const Row* piola) {
   constexpr int size = matrix_size<Space>;
@@ -58,6 +73,7 @@ void strain_tile(const ConsistentArraysIn<Space>& c, const TileRange& tile, doub
                  LargestChange& largest) {
   Row rate[gradient_size<Space>], piola[matrix_size<Space>];
   tile_rates(c, tile, rate);
+  take_own_along(c, tile, rate);
   const TileStep<Space> step(c, tile, rate, piola, dt);
   for_each_soil(c.state.soils, tile.first, tile.last,
                 [&](std::int32_t from, std::int32_t to, const LawView& law, std::int32_t place) {
