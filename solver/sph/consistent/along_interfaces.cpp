@@ -130,6 +130,7 @@ class AlongInterfaces::Builder {
 
 AlongInterfaces::AlongInterfaces(const ReferenceConfiguration& r, const Model& model) {
   if (!r.own_sides.empty()) Builder(r, model, *this).build();
+  if (!acts()) *this = {};
 }
 
 void AlongInterfaces::take_velocities(const std::array<std::vector<double>, 2>& velocity) {
@@ -146,7 +147,7 @@ void AlongInterfaces::take_velocities(const std::array<std::vector<double>, 2>& 
 }
 
 void AlongInterfaces::connect(OwnSideView& view) const {
-  for (int d = 0; d < 2; ++d) view.change[d] = change_[d].data();
+  for (int d = 0; d < 2; ++d) view.change[d] = acts() ? change_[d].data() : nullptr;
 }
 
 void AlongInterfaces::add_forces(const ReferenceConfiguration& r, const PlaneTensors& piola,

@@ -27,6 +27,8 @@ class AlongInterfaces {
   /// Of the particles in the reference's OwnSides.
   AlongInterfaces(const ReferenceConfiguration& reference, const Model& model);
 
+  bool acts() const { return !pairs_.empty(); }
+
   /// What changes of the velocity gradients, from velocities of the particles and ghosts [m/s].
   void take_velocities(const std::array<std::vector<double>, 2>& velocity);
   void connect(OwnSideView& view) const;

@@ -185,7 +185,8 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
       const OwnSides& sides = reference_.own_sides;
       const std::int32_t place = sides.empty() ? -1 : sides.place[a];
       Mat2 of_sum = matrix(rate[a - first]);
-      if (place >= 0) of_sum += fluxes_.along_interfaces().change(place) * sides.tangent(place).transpose();
+      if (place >= 0 && fluxes_.along_interfaces().acts())
+        of_sum += fluxes_.along_interfaces().change(place) * sides.tangent(place).transpose();
       out[a] = of_sum * inverse(fluxes_.deformation(a));
       if (place >= 0) out[a] = sides.rate_of(place, out[a]);
     }

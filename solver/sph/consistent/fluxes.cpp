@@ -22,7 +22,7 @@ Fluxes::Fluxes(const ReferenceConfiguration& r, const Model& model, bool elastic
   if (records_.size() < all) SparselyWritten<Record>(all + all / 8).swap(records_);  // ghosts come and go
   mirrored_.assign(p.size(), r.closed() ? 1 : 0);
   behind_walls_.mark_used(r, mirrored_);
-  keep_piola_of(r.own_sides.particle);
+  if (along_interfaces_.acts()) keep_piola_of(r.own_sides.particle);
   piola_.resize(all);
   ghost_positions_.resize(r.ghosts.size());
 }

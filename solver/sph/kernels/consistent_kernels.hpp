@@ -55,7 +55,7 @@ struct OwnSideView {
   const double* gradient[16];  ///< A
   const double* tie[4];        ///< [Pa]
   const double* along[2];      ///< t
-  const double* change[2];     ///< of the derivative along t: see AlongInterfaces [1/s]
+  const double* change[2];     ///< of the derivative along t: see AlongInterfaces [1/s]; null: none
   const double* rate;          ///< k of the zero-energy control [1/s]
 };
 

@@ -47,6 +47,7 @@ template <class Space>
 void take_own_along(const ConsistentArraysIn<Space>& c, const TileRange& tile, Row* rate) {
   if constexpr (std::is_same_v<Space, Plane>) {
     const OwnSideView& sides = c.state.own_sides;
+    if (sides.change[0] == nullptr) return;
     for_each_soil(c.state.soils, tile.first, tile.last,
                   [&](std::int32_t from, std::int32_t to, const LawView&, std::int32_t place) {
                     if (place < 0) return;
