@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "solver/run/strain_anew.hpp"
+#include "solver/run/recomputed_stress.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
 namespace porosph {
@@ -172,10 +172,10 @@ void take_over(const Beginning& beginning, const Case& scene, Model& model) {
     for (std::size_t i = 0; i < p.size(); ++i)
       if (same[i] >= 0) p.uncounted[i] = from.particles.uncounted[same[i]];
   }
-  const bool strains_anew = displacement_is_strain(from.scene, scene);
-  const std::optional<Model> drawn = strains_anew ? std::optional(model) : std::nullopt;
+  const bool recomputes = displacement_is_strain(from.scene, scene);
+  const std::optional<Model> drawn = recomputes ? std::optional(model) : std::nullopt;
   TakeOver(from, drawn_before.particles, model, same).take();
-  if (strains_anew) strain_anew(from, drawn_before, *drawn, same, p);
+  if (recomputes) recompute_stress(from, drawn_before, *drawn, same, p);
   if (beginning.reset_displacements) count_from_here(p);
   model.water.set_time(beginning.time);
   if (model.pore_water->acts(model.water)) model.pore_water->follow(model.water, p, 0, p.size());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double load = 60e3, modulus = 12e6, height = 4, porosity = 0.1, c_v = 1e-9 * modulus / 9810;
 
-/// k over its value at the start, by the porosity that a small compression leaves: written out anew.
+/// k over its value at the start, by the porosity that a small compression leaves: written out a second time, for the test.
 double permeability(double compression) {
   const double n = 1 - (1 - porosity) / (1 - compression);
   return std::pow(n, 3) / std::pow(1 - n, 2) / (std::pow(porosity, 3) / std::pow(1 - porosity, 2));

@@ -38,9 +38,9 @@ ConsistentDynamics::ConsistentDynamics(const FormulationCase& formulation, Model
 
 /// By the map cases/stability/refresh_zero_energy.toml; in flow by collapsing columns, which a limit of 0.02
 /// lets run out equally far, to 0.5 %, in 1.4 times the time. Elastic bodies keep their neighbours, and each
-/// new reference takes what alternates as it is. Soil at rest with an excess pressure keeps its reference: in
-/// soil that has flowed the force of that pressure and the volume that laws see are no longer adjoint at
-/// walls.
+/// new reference takes what alternates as it is. Soil at rest with an excess pressure keeps its reference:
+/// flow and soil would diverge after a renewal, probably because laws and water then see fixed walls
+/// differently.
 double ConsistentDynamics::refresh_strain() const {
   constexpr double usual = 0.02, in_flow = 0.05, of_bodies = 0.1;
   if (formulation_.refresh_strain >= 0) return formulation_.refresh_strain;

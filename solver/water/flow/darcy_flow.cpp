@@ -241,9 +241,9 @@ std::vector<double> DarcyFlow::through_patches_if(std::span<const double> head, 
 
 std::vector<Vec2> DarcyFlow::velocities(std::span<const double> head, const FaceConditions& faces,
                                         std::span<const Vec2> position, bool saturated) const {
-  std::vector<double> kr = permeabilities(head);
-  if (saturated)
-    for (std::size_t a = 0; a < particles(); ++a) kr[a] = ratio(a);
+  std::vector<double> kr;
+  if (!saturated) kr = permeabilities(head);
+  for (std::size_t a = 0; saturated && a < particles(); ++a) kr.push_back(ratio(a));
   std::vector<Vec2> w(particles(), Vec2::Zero());
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < particles(); ++a) {

@@ -1,4 +1,4 @@
-#include "solver/run/strain_anew.hpp"
+#include "solver/run/recomputed_stress.hpp"
 
 #include <algorithm>
 
@@ -34,8 +34,8 @@ bool displacement_is_strain(const Case& before, const Case& now) {
   return holds(before) && holds(now);
 }
 
-void strain_anew(const HandedOver& from, const Model& before, const Model& now,
-                 std::span<const std::int32_t> same, Particles& particles) {
+void recompute_stress(const HandedOver& from, const Model& before, const Model& now,
+                      std::span<const std::int32_t> same, Particles& particles) {
   std::vector<Vec2> moved_before, moved(same.size(), Vec2::Zero());
   for (std::size_t b = 0; b < from.particles.size(); ++b)
     moved_before.push_back(from.particles.position[b] - from.particles.start[b]);
@@ -45,13 +45,13 @@ void strain_anew(const HandedOver& from, const Model& before, const Model& now,
     as_before.soils[now.particles.soil[i]] = before.soils[before.particles.soil[same[i]]];
   const FormulationCase& formulation = from.scene.formulation;
   const Particles old = strained(formulation, before, moved_before),
-                  anew = strained(formulation, std::move(as_before), moved);
+                  recomputed = strained(formulation, std::move(as_before), moved);
   for (std::size_t i = 0; i < same.size(); ++i) {
     const std::int32_t b = same[i];
     if (!is_linear(from.scene.soils[before.particles.soil[b]])) continue;
-    particles.stress[i] = particles.stress[i] + anew.stress[i] + old.stress[b] * -1;
-    if (!anew.interface_stress.empty() && !old.interface_stress.empty())
-      particles.interface_stress[i] += anew.interface_stress[i] - old.interface_stress[b];
+    particles.stress[i] = particles.stress[i] + recomputed.stress[i] + old.stress[b] * -1;
+    if (!recomputed.interface_stress.empty() && !old.interface_stress.empty())
+      particles.interface_stress[i] += recomputed.interface_stress[i] - old.interface_stress[b];
   }
 }
 
