@@ -18,7 +18,7 @@ case "${1:-}" in
     exec scripts/"${1#--}".sh "${@:2}" ;;
 esac
 nightly=false
-if [[ ${1:-} == --nightly ]]; then nightly=true; shift; fi
+if [[ ${1:-} == --nightly ]]; then nightly=true; export POROSPH_NIGHTLY=1; shift; fi
 preset=${POROSPH_PRESET:-tests}
 build() {  # [--target NAME]
   cmake --preset "$preset" > /dev/null

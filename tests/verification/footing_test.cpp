@@ -79,7 +79,7 @@ TEST_CASE("a rough footing on clay bears 2 + pi times its strength", "[footing]"
 
 TEST_CASE("a footing on weightless sand bears the surcharge times N_q", "[footing]") {
   const auto [friction, settlement] = GENERATE(table<double, double>({{20, 0.0003}, {30, 0.0008}}));
-  const double spacing = GENERATE(0.2, 0.1);
+  const double spacing = GENERATE(from_range(coarse_and_fine(0.2, 0.1)));
   const Settings settings = sand(friction, friction, settlement, spacing);
   const double factor = measured_n_q(settings), exact = n_q(friction);
   CAPTURE(friction, spacing, factor, exact);
@@ -93,7 +93,7 @@ TEST_CASE("a footing on weightless sand bears the surcharge times N_q", "[footin
 
 TEST_CASE("a footing on heavy sand bears its weight times N_gamma", "[footing]") {
   const auto [friction, settlement] = GENERATE(table<double, double>({{20, 0.0003}, {30, 0.0012}}));
-  const double spacing = GENERATE(0.2, 0.1);
+  const double spacing = GENERATE(from_range(coarse_and_fine(0.2, 0.1)));
   const Settings settings = sand(friction, friction, settlement, spacing);
   const double factor = measured_n_gamma(settings), exact = SlipLines(friction, true).n_gamma();
   CAPTURE(friction, spacing, factor, exact);

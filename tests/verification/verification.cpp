@@ -134,6 +134,11 @@ void note(const Measurement& what, const std::string& found, const std::string& 
   rows().push_back({what, found, allowed});
 }
 
+std::vector<double> coarse_and_fine(double coarse, double fine) {
+  const bool at_length = std::getenv("POROSPH_NIGHTLY") || std::getenv("POROSPH_WRITE_DOCS");
+  return at_length ? std::vector{coarse, fine} : std::vector{coarse};
+}
+
 double fitted_order(const std::vector<double>& spacings, const std::vector<double>& errors) {
   const auto n = static_cast<double>(spacings.size());
   double x = 0, y = 0, xx = 0, xy = 0;

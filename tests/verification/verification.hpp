@@ -41,6 +41,10 @@ void expect(const Measurement& what, double error, double largest_allowed,
 /// Keeps a finding that is checked elsewhere.
 void note(const Measurement& what, const std::string& found, const std::string& allowed = "");
 
+/// The coarse spacing, and the fine one too where the tests may take long: `./test.sh --nightly`, and where
+/// the table is written [m].
+std::vector<double> coarse_and_fine(double coarse, double fine);
+
 /// Exponent p of error ~ spacing^p, fitted by least squares to the logarithms.
 double fitted_order(const std::vector<double>& spacings, const std::vector<double>& errors);
 
