@@ -15,7 +15,7 @@ void require_fem(const Case& scene);
 std::string fem_outlook(const Case& scene);
 
 /// For a run that is over: `outcome` has its status, stepping_seconds and unbalanced_force_ratio. Where the
-/// case leaves it to the program, anything that stands against the comparison is told in FemCheck::skipped.
+/// case leaves it to the program, what prevents the comparison is stated in FemCheck::skipped.
 FemCheck check_by_fem(Simulation& simulation, const Summary& outcome);
 
 /// A line for each soil, and why nothing was compared.

@@ -11,11 +11,15 @@
 #include "app/picture_options.hpp"
 #include "app/range.hpp"
 #include "render/report/comparison.hpp"
-#include "render/run/frame_pair.hpp"
+#include "render/run/shown_field.hpp"
+#include "vtk_io/finished_run/frame_pair.hpp"
 #include "vtk_io/paraview_script.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

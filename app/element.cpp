@@ -23,6 +23,9 @@
 #endif
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

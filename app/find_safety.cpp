@@ -16,6 +16,9 @@
 #endif
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 void find_by_limit_equilibrium(const Case& scene, SafetyAnswer& answer) {

@@ -7,9 +7,9 @@
 #include "app/command.hpp"
 #include "app/field_help.hpp"
 #include "app/numbers.hpp"
-#include "render/run/finished_run.hpp"
 #include "solver/analysis/derived_fields.hpp"
 #include "solver/analysis/grid_values.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 #include "vtk_io/grid_vti.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 

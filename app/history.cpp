@@ -12,6 +12,9 @@
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

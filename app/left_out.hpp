@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/run/norms.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 
 namespace porosph::app {
 

@@ -28,7 +28,7 @@ double height(const Case& scene) {
   return high - low;
 }
 
-/// Ground on which soil runs out: floors go on where they end without a wall.
+/// Ground on which soil runs out: floors continue where they end without a wall.
 void extend_floors(Case& c) {
   const double way = lengths * height(c), near = 1e-6 * c.particles.spacing;
   for (BoundaryCase& floor : c.boundaries) {

@@ -7,6 +7,8 @@
 
 namespace porosph::app {
 
+using namespace render;
+
 FieldStyle read_style(const std::string& text) {
   if (text == "particles") return FieldStyle::particles;
   if (text == "bands") return FieldStyle::bands;

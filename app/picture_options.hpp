@@ -9,7 +9,7 @@
 namespace porosph::app {
 
 /// Of --style. Throws UsageError for another word than particles, bands or isolines.
-FieldStyle read_style(const std::string& text);
+render::FieldStyle read_style(const std::string& text);
 
 /// Throws UsageError unless a picture can be written to this name given by --out.
 void require_picture_name(const std::filesystem::path& path);

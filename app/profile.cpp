@@ -10,14 +10,17 @@
 #include "app/numbers.hpp"
 #include "app/picture_options.hpp"
 #include "render/chart.hpp"
-#include "render/run/finished_run.hpp"
 #include "render/run/run_panel.hpp"
 #include "solver/analysis/frame_values.hpp"
 #include "solver/analysis/surface_profile.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/csv.hpp"
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

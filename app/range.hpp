@@ -9,6 +9,6 @@
 namespace porosph::app {
 
 /// "LOW,HIGH"; nothing for an empty text. Throws UsageError naming the option.
-std::optional<ValueRange> read_range(const std::string& option, const std::string& text);
+std::optional<render::ValueRange> read_range(const std::string& option, const std::string& text);
 
 }  // namespace porosph::app

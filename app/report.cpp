@@ -19,6 +19,9 @@
 #include "vtk_io/run_folder/safety_files.hpp"
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

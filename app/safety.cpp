@@ -188,7 +188,7 @@ SafetyAnswer find_safety_of(const Case& scene, const Options& o, Body& body) {
   return answer;
 }
 
-/// The values of --vary. Throws UsageError where one is no number.
+/// The values of --vary. Throws UsageError where one is not a number.
 std::vector<double> numbers_of(const SweepAxis& axis) {
   std::vector<double> numbers;
   for (const SweepValue& value : axis.values) {
@@ -196,7 +196,7 @@ std::vector<double> numbers_of(const SweepAxis& axis) {
     numbers.push_back(std::strtod(value.label.c_str(), &end));
     if (*end != 0 || !std::isfinite(numbers.back()))
       throw UsageError(
-          fmt::format("--vary {}: {} is no number", printable(axis.title), printable(value.label)));
+          fmt::format("--vary {}: {} is not a number", printable(axis.title), printable(value.label)));
   }
   return numbers;
 }

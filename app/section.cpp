@@ -8,14 +8,17 @@
 #include "app/field_help.hpp"
 #include "app/numbers.hpp"
 #include "app/picture_options.hpp"
-#include "render/run/norms.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/section_chart.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/space/place_text.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

@@ -19,6 +19,9 @@
 #endif
 
 namespace porosph::app {
+
+using namespace render;
+
 namespace {
 
 namespace po = boost::program_options;

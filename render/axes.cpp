@@ -5,7 +5,7 @@
 
 #include "render/nice_ticks.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -135,4 +135,4 @@ void draw_frame(Canvas& canvas, const Plot& plot) {
   draw_y_axis(canvas, plot, fitting_ticks(plot.y, plot.box.height, true));
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,7 +6,7 @@
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct Axis {
   double low = 0, high = 1;  ///< low < high; both > 0 if logarithmic
@@ -42,4 +42,4 @@ FrameMargins frame_margins(const Axis& x, const Axis& y, double width, double he
 void draw_grid(Canvas& canvas, const Plot& plot);
 void draw_frame(Canvas& canvas, const Plot& plot);
 
-}  // namespace porosph
+}  // namespace porosph::render

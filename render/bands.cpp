@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 struct Corner {
@@ -181,4 +181,4 @@ std::vector<std::vector<Pixel>> region_above(const TriangleField& field, double 
   return chains.lines();
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

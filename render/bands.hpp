@@ -7,7 +7,7 @@
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Triangles over points of the picture, with a value at each point. Triangles with a value that is not
 /// finite are left out of all that follows.
@@ -34,4 +34,4 @@ std::vector<std::vector<Pixel>> isolines(const TriangleField& field, double leve
 /// Minus infinity gives the whole field.
 std::vector<std::vector<Pixel>> region_above(const TriangleField& field, double level);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -12,7 +12,7 @@
 #include "render/vtk_device.hpp"
 #include "solver/printable.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -166,4 +166,4 @@ void Canvas::clip(const Box& box) { device_.clip(box); }
 
 void Canvas::unclip() { device_.unclip(); }
 
-}  // namespace porosph
+}  // namespace porosph::render

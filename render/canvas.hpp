@@ -7,7 +7,7 @@
 
 #include "render/colour_map.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 class CanvasDevice;
 
@@ -79,4 +79,4 @@ class Canvas {
   CanvasDevice& device_;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,7 +6,7 @@
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// In the picture's own pixels: origin at the lower left corner, y upwards.
 class CanvasDevice {
@@ -23,4 +23,4 @@ class CanvasDevice {
   virtual void unclip() = 0;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 #include "render/drawing.hpp"
 #include "render/offscreen_window.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr double edge = 16, title_size = 18, axis_size = 14, label_size = 13, text_size = 13, small_size = 11,
@@ -207,4 +207,4 @@ void save_category_map(const CategoryMap& map, const std::filesystem::path& path
                path);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -7,7 +7,7 @@
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct MapCategory {
   std::string label;  ///< in the legend
@@ -39,4 +39,4 @@ struct CategoryMap {
 /// that cannot be written.
 void save_category_map(const CategoryMap& map, const std::filesystem::path& path);
 
-}  // namespace porosph
+}  // namespace porosph::render

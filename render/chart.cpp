@@ -11,8 +11,9 @@
 #include "render/drawing.hpp"
 #include "render/legend.hpp"
 #include "render/offscreen_window.hpp"
+#include "render/upright_lines.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -90,6 +91,8 @@ std::vector<std::vector<Pixel>> all_lines(const Chart& chart, const Plot& plot) 
   for (const ChartSeries& series : chart.series)
     for (auto& line : lines_of(series, plot)) lines.push_back(std::move(line));
   for (const ReferenceLine& reference : chart.references) lines.push_back(line_of(reference, plot));
+  for (const Box& name : label_boxes(chart.uprights, plot))
+    if (name.width > 0) lines.push_back({{name.x, name.y}, {name.right(), name.y}});
   return lines;
 }
 
@@ -202,6 +205,7 @@ void draw_chart(Canvas& canvas, const Chart& chart, const ChartPlan& plan) {
   const Box& frame = plan.plot.box;
   draw_grid(canvas, plan.plot);
   canvas.clip(frame);
+  draw_uprights(canvas, chart.uprights, plan.plot);
   for (const ReferenceLine& reference : chart.references)
     canvas.line(line_of(reference, plan.plot), pen_of(reference));
   for (std::size_t i = chart.series.size(); i-- > 0;)
@@ -260,4 +264,4 @@ void save_charts(const ChartFigure& figure, const std::filesystem::path& path) {
                path);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -9,7 +9,7 @@
 #include "render/colour_range.hpp"
 #include "render/line_style.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// How a line ends.
 enum class LineEnd {
@@ -38,6 +38,12 @@ struct ReferenceLine {
   Colour colour = {90, 90, 90};
 };
 
+/// An upright line across the chart, such as the beginning of a stage.
+struct UprightLine {
+  std::string label;
+  double x = 0;
+};
+
 struct ChartAxis {
   std::string title;  ///< with its unit, e.g. "t [s]"
   bool logarithmic = false;
@@ -49,6 +55,7 @@ struct Chart {
   ChartAxis x, y;
   std::vector<ChartSeries> series;  ///< the first is drawn on top
   std::vector<ReferenceLine> references;
+  std::vector<UprightLine> uprights = {};  ///< in the order of x
   bool to_scale = false;  ///< a unit is as long along x as along y: one range is made longer than asked for
 };
 
@@ -64,4 +71,4 @@ struct ChartFigure {
 /// axis cannot show, a picture too small for its charts, a missing font or a file that cannot be written.
 void save_charts(const ChartFigure& figure, const std::filesystem::path& path);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -8,7 +8,7 @@
 
 #include "render/nice_ticks.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -80,4 +80,4 @@ Axis y_axis_of(const Chart& chart) {
   return fit(chart.y, values, 0.06);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -4,7 +4,7 @@
 #include "render/axes.hpp"
 #include "render/chart.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Axes that hold all data and reference lines that they can show, with a little air, or the ranges that were
 /// given. Without any such data: 0 to 1, or 1 to 10 if logarithmic. Throws std::runtime_error for a given
@@ -15,4 +15,4 @@ Axis y_axis_of(const Chart& chart);
 /// Whether the axis has a place for the value.
 bool showable(const Axis& axis, double value);
 
-}  // namespace porosph
+}  // namespace porosph::render

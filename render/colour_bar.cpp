@@ -9,7 +9,7 @@
 
 #include "render/nice_ticks.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -250,4 +250,4 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale) {
               {.size = fitting_size(title, title_text, bar.height), .vertical = Align::low, .upright = true});
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -9,7 +9,7 @@
 #include "render/colour_map.hpp"
 #include "render/colour_range.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct ColourScale {
   std::string label;  ///< quantity with its unit, e.g. "σ'yy [kPa]"
@@ -39,7 +39,7 @@ struct FixedScale {
 FixedScale fix_scale(const ColourScale& scale, std::span<const double> values);
 
 /// Colour of each value: outside of the range that of its end, not finite the map's invalid colour. A
-/// sequential map whose range holds zero goes on in reds above it.
+/// sequential map whose range holds zero continues in reds above it.
 std::vector<Colour> colours_of(std::span<const double> values, const FixedScale& scale);
 
 /// The colour of each band between the levels, below the first one first.
@@ -53,4 +53,4 @@ double colour_bar_width(const FixedScale& scale, double height);
 /// colour.
 void draw_colour_bar(Canvas& canvas, const Box& box, const FixedScale& scale);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -8,7 +8,7 @@
 
 #include "render/colour_map_tables.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -79,4 +79,4 @@ Colour invalid_colour(ColourMap map) {
   return is_diverging(map) ? Colour{90, 90, 90} : Colour{190, 190, 190};
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace porosph {
+namespace porosph::render {
 
 // clang-format off
 inline constexpr std::array<std::uint32_t, 52> viridis_table = {
@@ -27,4 +27,4 @@ inline constexpr std::array<std::uint32_t, 52> cividis_table = {
 };
 // clang-format on
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -7,7 +7,7 @@
 
 #include "render/nice_ticks.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -80,4 +80,4 @@ ValueRange centred_range(ValueRange extent) {
   return {-high, high};
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

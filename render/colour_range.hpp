@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace porosph {
+namespace porosph::render {
 
 struct ValueRange {
   double low = 0, high = 1;
@@ -28,4 +28,4 @@ ValueRange rounded_range(ValueRange extent);
 /// As rounded_range, and with zero in the middle (for diverging colour maps).
 ValueRange centred_range(ValueRange extent);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -17,7 +17,7 @@
 #include "render/picture.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -455,4 +455,4 @@ void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)
   write_file(path, film.finish());
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -12,7 +12,7 @@
 #include "render/scenery.hpp"
 #include "solver/space/tensor.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// One scalar on particles, each a square of side `sizes` or its cell, at position + factor * displacement.
 struct ParticleField {
@@ -77,4 +77,4 @@ void save_each_panel(const ContourFigure& figure, int width, const std::vector<s
 void save_film(std::size_t count, const std::function<ContourFigure(std::size_t)>& figure,
                double pictures_per_second, const std::filesystem::path& path);
 
-}  // namespace porosph
+}  // namespace porosph::render

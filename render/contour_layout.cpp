@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -152,4 +152,4 @@ ContourLayout lay_out(const ContourSpace& space, const ContourSize& size) {
   return layout;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,7 +5,7 @@
 
 #include "render/axes.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct ContourSpace {
   double world_width = 1, world_height = 1;  ///< that each panel shows [m]
@@ -38,4 +38,4 @@ struct ContourLayout {
 /// block of panels that share theirs. Throws std::runtime_error if the picture is too small.
 ContourLayout lay_out(const ContourSpace& space, const ContourSize& size);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 #include "render/vector_picture.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 void check_size(const Drawing& drawing) {
@@ -40,4 +40,4 @@ void save_drawing(const Drawing& drawing, const std::filesystem::path& path) {
     write_file(path, path.extension() == ".svg" ? svg_of(drawing) : pdf_of(drawing));
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

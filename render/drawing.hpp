@@ -8,7 +8,7 @@
 
 #include "render/patches.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct FieldLayer {
   Patches patches;
@@ -31,4 +31,4 @@ bool is_picture_file(const std::filesystem::path& path);
 /// drawn, WriteError.
 void save_drawing(const Drawing& drawing, const std::filesystem::path& path);
 
-}  // namespace porosph
+}  // namespace porosph::render

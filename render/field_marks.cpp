@@ -6,7 +6,7 @@
 
 #include "render/nice_ticks.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 const Colour compression{20, 40, 110}, tension{200, 20, 30}, arrow_colour{25, 25, 25};
@@ -129,7 +129,7 @@ void draw_arrows(Canvas& canvas, const Plot& plot, const std::vector<Point>& at,
   double largest = 0;
   for (const std::size_t i : chosen)
     if (vectors[i].allFinite()) largest = std::max(largest, vectors[i].norm());
-  constexpr double shortest = 3;  // [pixels]; less is no arrow
+  constexpr double shortest = 3;  // [pixels]; a shorter one is not drawn
   for (const std::size_t i : chosen) {
     const double length = mark_spacing * vectors[i].norm() / largest;
     if (length >= shortest)
@@ -178,4 +178,4 @@ void draw_outlines_before(Canvas& canvas, const Plot& plot, const std::vector<So
   }
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -9,7 +9,7 @@
 #include "render/scenery.hpp"
 #include "solver/space/tensor.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Lines on which the field has the levels, each with its label where there is room beside the others and the
 /// boxes that are `taken`; zero is drawn heavier.
@@ -30,4 +30,4 @@ inline constexpr double mark_spacing = 34;  ///< [pixels]
 /// Outlines, dashed.
 void draw_outlines_before(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils);
 
-}  // namespace porosph
+}  // namespace porosph::render

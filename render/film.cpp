@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace porosph {
+namespace porosph::render {
 
 struct Film::Encoder {
   WebPAnimEncoder* encoder = nullptr;
@@ -66,4 +66,4 @@ std::string Film::finish() {
   return bytes;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

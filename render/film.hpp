@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace porosph {
+namespace porosph::render {
 
 /// Rows from the top, three bytes per pixel.
 struct Pixels {
@@ -31,4 +31,4 @@ class Film {
   int count_ = 0;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace porosph {
+namespace porosph::render {
 
 std::string find_font(const std::string& name, const std::vector<std::string>& directories) {
   for (const std::string& directory : directories) {
@@ -29,4 +29,4 @@ std::string font_file() {
                                       "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/TTF"});
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace porosph {
+namespace porosph::render {
 
 /// Path of DejaVuSans.ttf, or of the file that the environment variable POROSPH_FONT names.
 /// Throws std::runtime_error naming the places searched if there is none: VTK would fall back in silence.
@@ -13,4 +13,4 @@ std::string font_file();
 /// `directories` searched in turn for `name`; throws as font_file.
 std::string find_font(const std::string& name, const std::vector<std::string>& directories);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -62,4 +62,4 @@ void draw_legend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>&
   }
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

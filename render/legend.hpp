@@ -8,7 +8,7 @@
 
 #include "render/line_style.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct LegendEntry {
   std::string label;
@@ -25,4 +25,4 @@ std::optional<Box> free_corner(const Box& frame, Pixel extent, std::span<const s
 
 void draw_legend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& entries);
 
-}  // namespace porosph
+}  // namespace porosph::render

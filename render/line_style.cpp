@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace porosph {
+namespace porosph::render {
 
 Colour series_colour(std::size_t i) {
   static constexpr std::array<Colour, 7> colours = {{{0, 114, 178},
@@ -37,4 +37,4 @@ void draw_marker(Canvas& canvas, Pixel at, Marker marker, const Colour& colour) 
   if (marker == Marker::diamond) shape({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}});
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -1,9 +1,9 @@
-// How lines and points of a chart are told apart, also without colour vision.
+// How lines and points of a chart stay distinct, also without colour vision.
 #pragma once
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 enum class LineStyle { none, solid, dashed, dotted, dash_dotted };
 enum class Marker { none, circle, square, triangle, diamond };
@@ -17,4 +17,4 @@ std::vector<double> dash_pattern(LineStyle style);
 
 void draw_marker(Canvas& canvas, Pixel at, Marker marker, const Colour& colour);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::vector<std::string> log_tick_labels(const std::vector<double>& ticks) {
   return labels;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

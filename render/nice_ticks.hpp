@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace porosph {
+namespace porosph::render {
 
 /// Smallest of 1, 2, 5 times a power of ten that is not below `step` (> 0).
 double nice_step(double step);
@@ -30,4 +30,4 @@ TickLabels linear_tick_labels(const std::vector<double>& ticks);
 /// Plain decimals if all ticks lie within 0.001 to 10000, else powers of ten such as 10⁻⁵ or 2×10⁻⁵.
 std::vector<std::string> log_tick_labels(const std::vector<double>& ticks);
 
-}  // namespace porosph
+}  // namespace porosph::render

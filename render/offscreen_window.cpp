@@ -6,21 +6,21 @@
 
 #include <vtkEGLRenderWindow.h>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 using OffscreenWindow = vtkEGLRenderWindow;
 }
-}  // namespace porosph
+}  // namespace porosph::render
 
 #elif __has_include(<vtkOSOpenGLRenderWindow.h>)  // VTK with OSMesa
 
 #include <vtkOSOpenGLRenderWindow.h>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 using OffscreenWindow = vtkOSOpenGLRenderWindow;
 }
-}  // namespace porosph
+}  // namespace porosph::render
 
 #else  // VTK with X: Debian 12
 
@@ -36,7 +36,7 @@ extern "C" __attribute__((visibility("default"))) OSMESAproc glXGetProcAddressAR
   return OSMesaGetProcAddress(reinterpret_cast<const char*>(name));
 }
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -118,11 +118,11 @@ vtkStandardNewMacro(OffscreenWindow);
 
 }  // namespace
 
-}  // namespace porosph
+}  // namespace porosph::render
 
 #endif
 
-namespace porosph {
+namespace porosph::render {
 
 std::mutex& render_mutex() {
   static std::mutex mutex;
@@ -137,4 +137,4 @@ vtkSmartPointer<vtkRenderWindow> make_offscreen_window(int width, int height) {
   return window;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,7 +6,7 @@
 
 #include <mutex>
 
-namespace porosph {
+namespace porosph::render {
 
 /// VTK crashes when two threads draw at once: hold this from building a scene until its picture is saved.
 std::mutex& render_mutex();
@@ -15,4 +15,4 @@ std::mutex& render_mutex();
 /// Throws std::runtime_error where OSMesa gives no context or another OpenGL library has taken its place.
 vtkSmartPointer<vtkRenderWindow> make_offscreen_window(int width, int height);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,7 +5,7 @@
 
 #include "render/picture.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 bool inside(const Box& box, Pixel at) {
@@ -63,4 +63,4 @@ Patches water_patches(const Plot& plot, const std::vector<WaterStretch>& water, 
   return patches;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

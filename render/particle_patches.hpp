@@ -7,7 +7,7 @@
 #include "render/patches.hpp"
 #include "solver/case/case.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// A square of side `sizes` [m] (one value for all, or one each), or the cell of that particle where `cells`
 /// has one, with one colour per particle. Particles whose centre is outside of the plot's box are left out.
@@ -19,4 +19,4 @@ Patches particle_patches(const Plot& plot, const std::vector<Point>& positions,
 Patches water_patches(const Plot& plot, const std::vector<WaterStretch>& water, double x_from, double x_to,
                       double bottom);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -7,7 +7,7 @@
 
 #include "render/canvas.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Polygons of one colour each, in pixels from the lower left corner of `area`, outside of which nothing is
 /// drawn.
@@ -36,4 +36,4 @@ struct FilledRegion {
   Colour colour;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

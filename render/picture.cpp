@@ -29,7 +29,7 @@
 #include "render/offscreen_window.hpp"
 #include "render/vtk_device.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 enum Layer { background, fields, on_top, layer_count };
@@ -161,4 +161,4 @@ Pixels pixels_of(const Drawing& drawing) {
   return pixels;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,7 +6,7 @@
 #include "render/drawing.hpp"
 #include "render/film.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// More patches than this are drawn as square GL points of a whole number of device pixels, which is faster.
 inline constexpr std::size_t most_quads = 500'000;
@@ -16,4 +16,4 @@ inline constexpr std::size_t most_quads = 500'000;
 std::string png_of(const Drawing& drawing);
 Pixels pixels_of(const Drawing& drawing);
 
-}  // namespace porosph
+}  // namespace porosph::render

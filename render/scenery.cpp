@@ -11,7 +11,7 @@
 #include "render/legend.hpp"
 #include "solver/boundary/support.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 namespace {
 
@@ -435,4 +435,4 @@ void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, doub
   draw_lines(canvas, plot, scenery);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

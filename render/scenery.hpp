@@ -7,7 +7,7 @@
 #include "render/axes.hpp"
 #include "solver/case/case.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct SoilOutline {
   Polygon polygon;
@@ -62,4 +62,4 @@ std::vector<Box> probe_boxes(const Plot& plot, const Scenery& scenery);
 /// only: water is filled beneath the particles. Water is drawn from `x_from` to `x_to` at most.
 void draw_scenery(Canvas& canvas, const Plot& plot, const Scenery& scenery, double x_from, double x_to);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -14,7 +14,7 @@
 #include "render/canvas_device.hpp"
 #include "render/font.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 struct Destroy {
@@ -192,4 +192,4 @@ std::string pdf_of(const Drawing& drawing) {
   return text;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,10 +5,10 @@
 
 #include "render/drawing.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// The files' contents. Text is drawn as outlines of DejaVu Sans, so that it looks the same everywhere.
 std::string svg_of(const Drawing& drawing);
 std::string pdf_of(const Drawing& drawing);
 
-}  // namespace porosph
+}  // namespace porosph::render

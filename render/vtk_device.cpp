@@ -13,7 +13,7 @@
 
 #include "render/font.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 std::vector<float> on_device(std::span<const Pixel> points, double scale) {
@@ -75,4 +75,4 @@ void VtkDevice::clip(const Box& box) {
 
 void VtkDevice::unclip() { context_.GetDevice()->DisableClipping(); }
 
-}  // namespace porosph
+}  // namespace porosph::render

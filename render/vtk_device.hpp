@@ -6,7 +6,7 @@
 class vtkContext2D;
 class vtkTextProperty;
 
-namespace porosph {
+namespace porosph::render {
 
 /// `scale`: device pixels per pixel of the picture.
 void apply(vtkTextProperty& property, const TextStyle& style, double scale);
@@ -26,4 +26,4 @@ class VtkDevice : public CanvasDevice {
   double scale_;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

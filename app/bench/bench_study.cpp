@@ -10,6 +10,9 @@
 #include "vtk_io/run_folder/atomic_file.hpp"
 
 namespace porosph::bench {
+
+using namespace render;
+
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;

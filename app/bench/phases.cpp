@@ -16,6 +16,9 @@
 #include "vtk_io/particle_series.hpp"
 
 namespace porosph::bench {
+
+using namespace render;
+
 namespace {
 
 struct Form {

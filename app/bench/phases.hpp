@@ -21,6 +21,6 @@ struct Phases {
 Phases measure_phases(Bench& bench);
 
 /// Writes phases.csv, phases.png.
-StudySection show_phases(const Phases& phases, const Bench& bench);
+render::StudySection show_phases(const Phases& phases, const Bench& bench);
 
 }  // namespace porosph::bench

@@ -40,6 +40,6 @@ inline const std::string plain_contender = "plain loops", default_contender = "c
 Throughput measure_throughput(Bench& bench);
 
 /// Writes throughput.csv, throughput.png.
-StudySection show_throughput(const Throughput& throughput, const Bench& bench);
+render::StudySection show_throughput(const Throughput& throughput, const Bench& bench);
 
 }  // namespace porosph::bench

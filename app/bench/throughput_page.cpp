@@ -7,6 +7,9 @@
 #include "render/chart.hpp"
 
 namespace porosph::bench {
+
+using namespace render;
+
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;

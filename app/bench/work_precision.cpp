@@ -68,7 +68,7 @@ WorkPoint point_of(const Measured& m) {
           .settled = spread_of(m.settled)};
 }
 
-/// The plan's case; nothing where it has to be left out, which is told.
+/// The plan's case; nothing where it has to be left out, which the page says.
 std::optional<Case> affordable(Bench& bench, const Plan& plan, const Expectation& expectation) {
   const std::filesystem::path file = bench.options().cases / plan.file();
   if (!std::filesystem::exists(file)) {

@@ -37,6 +37,6 @@ inline const std::string paper_strategy = "C = 0.2, ξ = 0.002", rest_strategy =
 WorkPrecision measure_work_precision(Bench& bench);
 
 /// Writes work_precision.csv, work_precision.png.
-StudySection show_work_precision(const WorkPrecision& work, const Bench& bench);
+render::StudySection show_work_precision(const WorkPrecision& work, const Bench& bench);
 
 }  // namespace porosph::bench

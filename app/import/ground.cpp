@@ -182,7 +182,7 @@ bool goes_on(const Stretch& first, const Stretch& next) {
   return turn <= 1e-9 * before.norm() * after.norm() && before.dot(after) > 0;
 }
 
-/// Makes one of stretches that go on in one line, whatever soils they are of.
+/// Joins stretches that continue in one line, whatever soils they are of.
 void join(std::vector<Stretch>& outline) {
   for (std::size_t i = 0; i < outline.size(); ++i)
     for (std::size_t j = 0; j < outline.size(); ++j) {

@@ -105,7 +105,7 @@ Drawing read_drawing(const fs::path& file, const fs::path& reader) {
   try {
     return drawing_of(answer_of(reader, fs::absolute(file).string(), ""));
   } catch (const Json::exception&) {
-    throw DrawingError(fmt::format("{}: holds coordinates that are no finite numbers", file.string()));
+    throw DrawingError(fmt::format("{}: holds coordinates that are not finite numbers", file.string()));
   } catch (const DrawingError& error) {
     throw DrawingError(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -157,7 +157,7 @@ class Namer {
     return inside;
   }
 
-  /// "" where the region is told to be no soil.
+  /// "" where the region is said to be no soil.
   std::string name_of(const std::vector<Polygon>& rings) const {
     if (const auto told = those_in(drawn_.told, rings); !told.empty()) return told.front().text;
     const std::vector<Label> texts = those_in(drawn_.texts, rings);

@@ -7,14 +7,14 @@
 #include <span>
 #include <stdexcept>
 
-#include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
 #include "render/run/run_panel.hpp"
 #include "solver/space/place_text.hpp"
+#include "vtk_io/finished_run/frame_pair.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/csv.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,4 +284,4 @@ std::string largest_text(const FieldNorms& n) {
                      place_text({n.where.x(), n.where.y()}));
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "render/contour.hpp"
-#include "render/run/norms.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct ComparisonChoice {
   std::vector<FieldSelection> pictures;  ///< fields to draw
@@ -57,4 +57,4 @@ std::string relative_text(double relative_l2);
 /// "1.2 kPa at (0.1, 9.9) m".
 std::string largest_text(const FieldNorms& norms);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -8,7 +8,7 @@
 #include "render/run/shown_field.hpp"
 #include "solver/space/place_text.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 std::string percent(double part) { return std::isfinite(part) ? fmt::format("{:.2g} %", 100 * part) : "–"; }
@@ -52,4 +52,4 @@ std::string fem_check_section(const std::vector<std::string>& labels, const std:
   return text.empty() ? text : html::section("Checked by finite elements", text);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

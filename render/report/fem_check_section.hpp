@@ -6,9 +6,9 @@
 
 #include "solver/output/frame.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// A table per run, headed by its label, or why it was not compared; empty where no run says anything.
 std::string fem_check_section(const std::vector<std::string>& labels, const std::vector<Summary>& summaries);
 
-}  // namespace porosph
+}  // namespace porosph::render

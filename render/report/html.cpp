@@ -14,7 +14,7 @@
 #include "solver/printable.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
-namespace porosph::html {
+namespace porosph::render::html {
 namespace {
 
 /// Subscripts as shown_label writes them, "_{yy}".
@@ -187,4 +187,4 @@ std::string page(const std::string& title, const std::string& body) {
       escaped(title), resources::report_style, body, resources::report_script);
 }
 
-}  // namespace porosph::html
+}  // namespace porosph::render::html

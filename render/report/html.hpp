@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace porosph::html {
+namespace porosph::render::html {
 
 /// Text as it may stand anywhere in the page.
 std::string escaped(const std::string& text);
@@ -49,4 +49,4 @@ std::vector<std::string> pictures_of(const std::string& page);
 /// script drives players and sliders; the page is whole without it.
 std::string page(const std::string& title, const std::string& body);
 
-}  // namespace porosph::html
+}  // namespace porosph::render::html

@@ -20,7 +20,7 @@
 #include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -359,4 +359,4 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   return m.checked.failed;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 #include "render/report/report_pictures.hpp"
 #include "vtk_io/run_folder/threshold.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct ReportInput {
   std::vector<FinishedRun> runs;               ///< at least one
@@ -33,4 +33,4 @@ struct ReportInput {
 /// WriteError.
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -16,7 +16,7 @@
 #include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/atomic_file.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -384,4 +384,4 @@ std::vector<html::Instant> draw_pair(const LoadedRun& a, const LoadedRun& b, con
   return pictures;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

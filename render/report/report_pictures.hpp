@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "render/report/html.hpp"
-#include "render/run/norms.hpp"
 #include "render/run/section_chart.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct ReportPicture {
   std::string file, description, caption;
@@ -88,4 +88,4 @@ std::vector<html::Instant> draw_instants(const LoadedRun& run, const ReportField
 std::vector<html::Instant> draw_pair(const LoadedRun& a, const LoadedRun& b, const ReportField& shown,
                                      const std::filesystem::path& folder);
 
-}  // namespace porosph
+}  // namespace porosph::render

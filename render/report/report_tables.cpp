@@ -15,7 +15,7 @@
 #include "solver/case/case_file.hpp"
 #include "solver/space/place_text.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 std::string status_text(RunStatus status) {
@@ -256,4 +256,4 @@ std::string markdown(const Rows& rows) {
   return text + "\n";
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

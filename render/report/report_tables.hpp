@@ -8,7 +8,7 @@
 
 #include "render/report/report_pictures.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -34,4 +34,4 @@ std::string markdown(const Rows& rows);
 /// By this format of fmt, or a dash where the value is not finite.
 std::string number(double value, const char* format);
 
-}  // namespace porosph
+}  // namespace porosph::render

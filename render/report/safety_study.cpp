@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -62,4 +62,4 @@ Study safety_study(const SafetyAnswer& answer, const std::string& command) {
   return study;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

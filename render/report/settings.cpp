@@ -8,7 +8,7 @@
 
 #include "solver/case/case_file.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -65,4 +65,4 @@ std::vector<DifferingSetting> differing_settings(const std::vector<Case>& scenes
   return all;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

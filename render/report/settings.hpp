@@ -7,7 +7,7 @@
 
 #include "solver/case/case.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Key and value of every setting, as "soil.0.youngs_modulus" and "15000000", in the order of the case file.
 std::vector<std::pair<std::string, std::string>> settings_of(const Case& scene);
@@ -20,4 +20,4 @@ struct DifferingSetting {
 /// Those that are not the same in all cases.
 std::vector<DifferingSetting> differing_settings(const std::vector<Case>& scenes);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 #include "render/report/study.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 // M. Okabe and K. Ito (2008), Color universal design; they differ in lightness too.
@@ -164,4 +164,4 @@ void write_stability_study(const std::vector<SweptMap>& maps, const std::string&
   write_study(study, folder);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

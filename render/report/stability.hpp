@@ -8,7 +8,7 @@
 #include "solver/sweep/sweep.hpp"
 #include "solver/sweep/verdict.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// A sweep and what came of it; empty where it was interrupted.
 struct SweptMap {
@@ -27,4 +27,4 @@ void save_stability_map(const SweptMap& map, const std::filesystem::path& png);
 void write_stability_study(const std::vector<SweptMap>& maps, const std::string& command,
                            const std::filesystem::path& folder);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -8,7 +8,7 @@
 #include "render/report/html.hpp"
 #include "vtk_io/run_folder/safety_files.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 std::string ending_text(const std::string& ended) {
@@ -85,4 +85,4 @@ std::string stages_section(const std::vector<std::string>& labels, const std::ve
   return text.empty() ? text : html::section("Stages", text);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

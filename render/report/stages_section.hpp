@@ -6,9 +6,9 @@
 
 #include "solver/output/frame.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Empty where no run has stages.
 std::string stages_section(const std::vector<std::string>& labels, const std::vector<Summary>& summaries);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -11,7 +11,7 @@
 #include "vtk_io/run_folder/atomic_file.hpp"
 #include "vtk_io/run_folder/file_errors.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -165,4 +165,4 @@ std::string study_section(const fs::path& from, const fs::path& report, const st
   return html::section(study.title, content + "<pre>" + html::escaped(study.command) + "</pre>\n");
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

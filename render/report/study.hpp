@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace porosph {
+namespace porosph::render {
 
 struct StudyPicture {
   std::string file;         ///< its name in the study's folder
@@ -55,4 +55,4 @@ nlohmann::ordered_json to_json(const Study& study);
 std::string study_section(const std::filesystem::path& from, const std::filesystem::path& report,
                           const std::string& prefix);
 
-}  // namespace porosph
+}  // namespace porosph::render

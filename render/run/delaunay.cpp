@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 struct GridPoint {
@@ -62,4 +62,4 @@ std::vector<std::array<int, 3>> delaunay(const std::vector<Point>& points) {
   return triangles;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

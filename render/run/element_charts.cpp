@@ -2,7 +2,7 @@
 
 #include <functional>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 using Value = std::function<double(const ElementPath&, const ElementState&)>;
@@ -84,4 +84,4 @@ ChartFigure element_figure(const std::vector<ElementRun>& runs, const std::strin
   return figure;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -12,7 +12,7 @@
 #include "solver/run/reference_errors.hpp"
 #include "solver/space/place_text.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 std::optional<ChartSeries> history_line(const FinishedRun& run, const std::string& probe,
                                         const std::string& quantity, double factor) {
@@ -76,6 +76,12 @@ void mark_end(ChartSeries& series, const FinishedRun& run) {
     series.label += fmt::format(", interrupted at {}", short_time(run.summary->time));
 }
 
+void mark_stages(Chart& chart, const FinishedRun& run) {
+  if (!run.summary) return;
+  const auto& stages = run.summary->stages;
+  for (std::size_t i = 1; i < stages.size(); ++i) chart.uprights.push_back({stages[i].name, stages[i].start});
+}
+
 void style(ChartSeries& series, std::size_t run) {
   constexpr std::array lines = {LineStyle::solid, LineStyle::dashed, LineStyle::dash_dotted,
                                 LineStyle::dotted};
@@ -109,10 +115,11 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
     if (exact) chart.series.insert(chart.series.begin(), std::move(*exact));
     if (const auto theory = theory_at(*runs.front().scene, probe, field.text()))
       chart.references.push_back({.label = "theory, at rest", .y = *theory * unit.factor});
+    if (runs.size() == 1) mark_stages(chart, runs.front());
     show_days_if_long(chart);
     charts.push_back(std::move(chart));
   }
   return charts;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

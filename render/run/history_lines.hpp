@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "render/chart.hpp"
-#include "render/run/finished_run.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// A probe's reading over time times `factor`; empty if the run has no such probe or no history.
 std::optional<ChartSeries> history_line(const FinishedRun& run, const std::string& probe,
@@ -27,7 +27,11 @@ std::vector<Chart> stress_histories(const std::vector<FinishedRun>& runs,
 /// Says in the line's label where a run broke down or was interrupted, and marks its end.
 void mark_end(ChartSeries& series, const FinishedRun& run);
 
+/// An upright line where each stage of a run begins but the first, named as the stage. Call it before
+/// show_days_if_long.
+void mark_stages(Chart& chart, const FinishedRun& run);
+
 /// Every run has its own colour, dashes tell them apart without colour.
 void style(ChartSeries& series, std::size_t run);
 
-}  // namespace porosph
+}  // namespace porosph::render

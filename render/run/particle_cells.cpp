@@ -8,7 +8,7 @@
 #include "solver/geometry/moments.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr double reach = 3;  // of neighbours that may cut a cell, in spacings; a cell reaches half as far
@@ -94,4 +94,4 @@ std::vector<Polygon> particle_cells(const Case& scene, const std::vector<Point>&
   return cells;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

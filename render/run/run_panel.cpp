@@ -6,19 +6,19 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/run/material_points.hpp"
 #include "render/run/particle_cells.hpp"
 #include "render/run/shown_field.hpp"
 #include "render/run/soil_mesh.hpp"
-#include "render/run/stage_scene.hpp"
 #include "render/run/water_around.hpp"
 #include "solver/case/case_file.hpp"
 #include "solver/water/flow/face_conditions.hpp"
 #include "solver/water/standing_water.hpp"
+#include "vtk_io/finished_run/material_points.hpp"
+#include "vtk_io/finished_run/stage_scene.hpp"
 #include "vtk_io/particle_series.hpp"
 #include "vtk_io/sheets_vtp.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 std::vector<Point> positions_of(const Frame& frame) {
@@ -276,4 +276,4 @@ std::string panel_subtitle(const FinishedRun& run, double time, const std::strin
   return text;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

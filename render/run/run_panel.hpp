@@ -2,10 +2,10 @@
 #pragma once
 
 #include "render/contour.hpp"
-#include "render/run/finished_run.hpp"
 #include "render/run/shown_field.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Outlines, water, supports and probes of the case.
 Scenery scenery_of(const Case& scene);
@@ -58,4 +58,4 @@ std::string time_text(double time);
 /// ", unstable" where the run ended so. Only the time without a case.
 std::string panel_subtitle(const FinishedRun& run, double time, const std::string& title);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 #include "solver/model/model.hpp"
 #include "solver/output/fields.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr std::array<Colour, 3> surface_colours{Colour{215, 48, 39}, Colour{20, 20, 20},
@@ -152,4 +152,4 @@ void save_mechanism(const Case& scene, const SafetyAnswer& answer, const std::fi
   save_contours(figure, path);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,7 +5,7 @@
 
 #include "vtk_io/run_folder/safety_files.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Displacement over the factor that strength is divided by: the curve that bends where the body fails, with
 /// the factors of limit equilibrium. Throws as save_charts.
@@ -19,4 +19,4 @@ void save_safety_over_setting(const SafetyCurve& curve, const std::filesystem::p
 /// such a trial the soils, with the slip surfaces. Throws as save_contours.
 void save_mechanism(const Case& scene, const SafetyAnswer& answer, const std::filesystem::path& path);
 
-}  // namespace porosph
+}  // namespace porosph::render

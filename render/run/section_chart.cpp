@@ -12,7 +12,7 @@
 #include "solver/space/place_text.hpp"
 #include "vtk_io/run_folder/csv.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
@@ -237,4 +237,4 @@ std::string section_csv(const std::vector<RunSection>& sections, const std::vect
   return csv;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

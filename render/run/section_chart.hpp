@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "render/chart.hpp"
-#include "render/run/fem_reference.hpp"
-#include "render/run/finished_run.hpp"
 #include "solver/analysis/section.hpp"
+#include "vtk_io/finished_run/fem_reference.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Where a section is.
 struct SectionLine {
@@ -58,4 +58,4 @@ ChartFigure section_figure(const SectionLine& line, std::vector<Chart> charts, c
 /// field; empty cells where a reference does not have a field.
 std::string section_csv(const std::vector<RunSection>& sections, const std::vector<FieldSelection>& fields);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -10,7 +10,7 @@
 
 #include "solver/analysis/derived_fields.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 /// Unit in the files: of the tables, or by the usual names.
@@ -140,4 +140,4 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

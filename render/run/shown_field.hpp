@@ -7,7 +7,7 @@
 #include "render/colour_map.hpp"
 #include "solver/analysis/frame_values.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// A text as the name of a file in a folder: '_' takes the place of all but letters a to z, digits, '-' and
 /// '_', so that names that come from files never lead elsewhere.
@@ -42,4 +42,4 @@ bool usually_logarithmic(const FieldSelection& selection);
 /// Every value times `factor`.
 std::vector<double> scaled(std::vector<double> values, double factor);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -9,7 +9,7 @@
 #include "solver/geometry/region.hpp"
 #include "solver/sph/neighbours/neighbour_list.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 /// The soil that a particle started in: the first that holds it, else the nearest.
@@ -165,4 +165,4 @@ std::vector<Point> SoilMesh::at_corners(const std::vector<Point>& places,
   return all;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

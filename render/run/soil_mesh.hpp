@@ -7,7 +7,7 @@
 #include "solver/analysis/sampler.hpp"
 #include "solver/case/case.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// Each soil has triangles of its own, up to its outline, so that what jumps between soils is drawn with a
 /// jump. Where soil has been torn or turned over there are none.
@@ -44,4 +44,4 @@ class SoilMesh {
   std::vector<bool> uncovered_;
 };
 
-}  // namespace porosph
+}  // namespace porosph::render

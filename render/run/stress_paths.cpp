@@ -12,7 +12,7 @@
 #include "solver/output/invariants.hpp"
 #include "solver/space/place_text.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr double kilo = 1e-3;  // Pa to kPa
@@ -262,10 +262,11 @@ std::vector<Chart> settlement_curves(const std::vector<FinishedRun>& runs,
       chart.series.push_back(std::move(*line));
     }
     if (chart.series.empty()) continue;
+    mark_stages(chart, runs[i]);
     show_days_if_long(chart);
     charts.push_back(std::move(chart));
   }
   return charts;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

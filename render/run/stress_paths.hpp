@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "render/chart.hpp"
-#include "render/run/finished_run.hpp"
 #include "solver/space/tensor.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// What engineers plot of an effective stress, compression positive. Extremes are of all three principal
 /// stresses, that across the plane among them.
@@ -43,4 +43,4 @@ std::vector<Chart> stress_paths(const std::vector<FinishedRun>& runs, const std:
 std::vector<Chart> settlement_curves(const std::vector<FinishedRun>& runs,
                                      const std::vector<std::string>& labels);
 
-}  // namespace porosph
+}  // namespace porosph::render

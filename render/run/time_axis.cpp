@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 constexpr double day = 86400, longest_in_seconds = 2 * day;
@@ -21,6 +21,7 @@ void show_days_if_long(Chart& chart) {
   chart.x.title = "t [d]";
   for (ChartSeries& line : chart.series)
     for (double& time : line.x) time /= day;
+  for (UprightLine& upright : chart.uprights) upright.x /= day;
 }
 
 std::string short_time(double seconds) {
@@ -28,4 +29,4 @@ std::string short_time(double seconds) {
                                       : fmt::format("{:.3g} s", seconds);
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -5,7 +5,7 @@
 
 #include "render/chart.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// An axis of time for lines in seconds, which show_days_if_long may change.
 ChartAxis time_axis();
@@ -17,4 +17,4 @@ void show_days_if_long(Chart& chart);
 /// "0.0919 s", "4.15 d": by the same rule, to three digits.
 std::string short_time(double seconds);
 
-}  // namespace porosph
+}  // namespace porosph::render

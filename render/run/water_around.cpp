@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 struct Box {
@@ -62,4 +62,4 @@ std::vector<std::vector<Point>> water_table(std::span<const Point> positions,
   return lines;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

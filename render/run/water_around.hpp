@@ -6,7 +6,7 @@
 
 #include "solver/case/case.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 /// The water beside the faces of a case that have a head, as far as it stands above the soil.
 std::vector<WaterStretch> water_beside_faces(const Case& scene);
@@ -16,4 +16,4 @@ std::vector<WaterStretch> water_beside_faces(const Case& scene);
 std::vector<std::vector<Point>> water_table(std::span<const Point> positions,
                                             std::span<const double> pressure_head, double spacing);
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -3,7 +3,7 @@
 #include "render/run/history_lines.hpp"
 #include "render/run/time_axis.hpp"
 
-namespace porosph {
+namespace porosph::render {
 namespace {
 
 /// Lines of the columns that `name` gives a label to; "" leaves a column out.
@@ -18,6 +18,7 @@ Chart chart_of(const FinishedRun& run, const std::string& title, const std::stri
     style(line, chart.series.size());
     chart.series.push_back(std::move(line));
   }
+  mark_stages(chart, run);
   show_days_if_long(chart);
   return chart;
 }
@@ -50,4 +51,4 @@ std::vector<Chart> water_curves(const std::vector<FinishedRun>& runs,
   return charts;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

@@ -317,7 +317,7 @@ ON_THE_COMMAND_LINE = [
     ("a factor of safety without gravity", "safety case.toml --set loading.gravity_applied=false", {}),
     ("a method that is not there", "safety case.toml --method bishop", {}),
     ("a bracket that is too narrow", "safety case.toml --bracket 0", {}),
-    ("a curve over something that is no number", "safety case.toml --vary soil.sand.poissons_ratio=0.2,much", {}),
+    ("a curve over something that is not a number", "safety case.toml --vary soil.sand.poissons_ratio=0.2,much", {}),
     ("a runout of a curve", "safety case.toml --vary soil.sand.poissons_ratio=0.2,0.3 --then-run", {}),
     ("a failure without strength reduction", "safety case.toml --method limit-equilibrium --then-run", {}),
     ("an element test of a soil that is not there", "element case.toml clay", {}),

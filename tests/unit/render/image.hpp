@@ -13,7 +13,7 @@
 
 #include "render/colour_map.hpp"
 
-namespace porosph {
+namespace porosph::render {
 
 struct Patch {
   int left = std::numeric_limits<int>::max(), right = -1, bottom = left, top = -1;
@@ -74,4 +74,4 @@ inline std::filesystem::path picture_path(const std::string& name) {
   return folder.path / name;
 }
 
-}  // namespace porosph
+}  // namespace porosph::render

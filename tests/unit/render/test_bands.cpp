@@ -12,6 +12,7 @@
 #include "solver/geometry/place_particles.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

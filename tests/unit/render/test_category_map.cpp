@@ -4,6 +4,7 @@
 #include "tests/unit/render/image.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

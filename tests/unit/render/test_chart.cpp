@@ -5,6 +5,7 @@
 #include "render/chart.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 
@@ -50,6 +51,23 @@ TEST_CASE("on a logarithmic axis equal factors are equal distances") {
 TEST_CASE("nothing is drawn beyond a given range") {
   const Patch outside = saved({.title = "", .charts = {flat(1.5)}}, "outside.png").find(series_colour(0));
   CHECK(outside.pixels == 0);
+}
+
+TEST_CASE("upright lines stand where their x is, and names without room are left out") {
+  const Colour grey{110, 110, 110};
+  const auto drawn = [&](std::vector<UprightLine> uprights, const std::string& name) {
+    Chart chart = flat(0.5);
+    chart.uprights = std::move(uprights);
+    return saved({.title = "", .charts = {chart}}, name).find(grey);
+  };
+  CHECK(drawn({{"", 2}}, "upright_beyond.png").pixels == 0);
+  const Patch one = drawn({{"", 0.5}}, "upright.png"), two = drawn({{"", 0.25}, {"", 0.75}}, "uprights.png");
+  CHECK(one.height() > 250);
+  CHECK(one.width() <= 2);
+  CHECK(0.5 * (two.left + two.right) == Approx(0.5 * (one.left + one.right)).margin(1));
+  CHECK(drawn({{"dig", 0.5}}, "upright_named.png").width() > 15);
+  CHECK(drawn({{"dig", 0.999}}, "upright_at_edge.png").width() <= 2);
+  CHECK(drawn({{"dig", 0.5}, {"", 0.51}}, "uprights_near.png").width() < 15);
 }
 
 TEST_CASE("values that are not finite interrupt a line") {

@@ -5,6 +5,7 @@
 #include "render/colour_bar.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

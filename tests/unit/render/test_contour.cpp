@@ -7,6 +7,7 @@
 #include "render/picture.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

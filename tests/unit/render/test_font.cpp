@@ -5,6 +5,7 @@
 #include "render/font.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 TEST_CASE("a missing font is an error that says what to install") {
   CHECK_THROWS_WITH((find_font("DejaVuSans.ttf", {"/no/such/folder", "/nor/this"})),

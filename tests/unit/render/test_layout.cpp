@@ -8,6 +8,7 @@
 #include "render/scenery.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

@@ -7,16 +7,17 @@
 #include "render/report/html.hpp"
 #include "render/report/report_tables.hpp"
 #include "render/report/settings.hpp"
-#include "render/run/frame_pair.hpp"
 #include "render/run/history_lines.hpp"
-#include "render/run/material_points.hpp"
-#include "render/run/norms.hpp"
 #include "render/run/run_panel.hpp"
 #include "render/run/shown_field.hpp"
 #include "solver/case/case_file.hpp"
+#include "vtk_io/finished_run/frame_pair.hpp"
+#include "vtk_io/finished_run/material_points.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 #include "vtk_io/run_folder/threshold.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -248,7 +249,7 @@ TEST_CASE("a history says where its run ended") {
   CHECK(long_line.label == "run, unstable at 4.15 d");
 }
 
-TEST_CASE("times are told with as many digits as tell them apart") {
+TEST_CASE("times have as many digits as distinguish them") {
   CHECK(time_text(0.0919118) == "t = 0.0919 s");
   CHECK(time_text(100.25) == "t = 100.2 s");
   CHECK(time_text(216000) == "t = 2 d 12 h");

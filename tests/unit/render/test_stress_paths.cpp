@@ -7,6 +7,7 @@
 #include "render/run/water_curves.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

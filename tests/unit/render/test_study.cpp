@@ -8,6 +8,7 @@
 #include "vtk_io/run_folder/file_errors.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -5,6 +5,7 @@
 #include "render/nice_ticks.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 TEST_CASE("a nice step is 1, 2 or 5 times a power of ten, not below the wanted one") {
   CHECK(nice_step(1) == Approx(1));

@@ -3,6 +3,7 @@
 #include "render/run/water_around.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "render/run/finished_run.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
 #include <fmt/format.h>
 

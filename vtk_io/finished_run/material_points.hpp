@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "render/run/finished_run.hpp"
 #include "solver/analysis/sampler.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
 namespace porosph {
 

@@ -1,7 +1,7 @@
 // Which frames of two runs stand side by side: those of one time.
 #pragma once
 
-#include "render/run/finished_run.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
 namespace porosph {
 

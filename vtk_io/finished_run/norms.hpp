@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "render/run/fem_reference.hpp"
-#include "render/run/material_points.hpp"
 #include "solver/analysis/field_norms.hpp"
+#include "vtk_io/finished_run/fem_reference.hpp"
+#include "vtk_io/finished_run/material_points.hpp"
 
 namespace porosph {
 

@@ -1,7 +1,7 @@
 // The case of the stage that a frame shows.
 #pragma once
 
-#include "render/run/finished_run.hpp"
+#include "vtk_io/finished_run/finished_run.hpp"
 
 namespace porosph {
 

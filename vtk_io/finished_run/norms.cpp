@@ -1,4 +1,4 @@
-#include "render/run/norms.hpp"
+#include "vtk_io/finished_run/norms.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/run/material_points.hpp"
+#include "vtk_io/finished_run/material_points.hpp"
 
 #include <fmt/format.h>
 

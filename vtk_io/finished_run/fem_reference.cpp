@@ -1,4 +1,4 @@
-#include "render/run/fem_reference.hpp"
+#include "vtk_io/finished_run/fem_reference.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>

@@ -1,4 +1,4 @@
-#include "render/run/frame_pair.hpp"
+#include "vtk_io/finished_run/frame_pair.hpp"
 
 #include <fmt/format.h>
 

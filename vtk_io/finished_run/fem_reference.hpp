@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "render/run/shown_field.hpp"
+#include "solver/analysis/frame_values.hpp"
 #include "solver/case/case.hpp"
 #include "solver/reference/fem/p4_triangle.hpp"
 #include "solver/reference/fem/triangle_locator.hpp"

@@ -1,4 +1,4 @@
-#include "render/run/stage_scene.hpp"
+#include "vtk_io/finished_run/stage_scene.hpp"
 
 #include "solver/case/stages.hpp"
 
