@@ -14,7 +14,7 @@ figures=$out/figures
 jobs_at_once=${JOBS:-$(nproc)}
 mkdir -p "$out/logs" "$figures"
 
-# run NAME CASE [SETTING...]: one thread each, several runs at a time; a failure is told when all have ended.
+# run NAME CASE [SETTING...]: one thread each, several runs at a time; a failure is reported when all have ended.
 failures=$out/logs/failures
 : > "$failures"
 run() {

@@ -19,7 +19,7 @@ cppcheck --std=c++20 --language=c++ --enable=warning,performance,portability --i
   --suppressions-list=scripts/cppcheck_suppressions.txt -DPOROSPH_HAS_VTK -DPOROSPH_VERSION='""' \
   '-DTEST_CASE(...)=static void test()'   -j "$(nproc)" --error-exitcode=1 "${sources[@]}" "${others[@]}" || failed=1
 
-# Only to learn where the libraries' headers are, and what they are told. (clang 14 cannot choose vector units as g++ does.)
+# Only to learn where the libraries' headers are, and how they are configured. (clang 14 cannot choose vector units as g++ does.)
 cmake --preset tests -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DPOROSPH_TESTS=OFF -B build/lint > /dev/null
 mapfile -t libraries < <(grep -oP ' -(isystem [^ "]+|D\w+(=\w+)?)(?= )' build/lint/compile_commands.json |
                          grep -vE 'NDEBUG|VECTOR_UNITS|DISPATCH' | sort -u | xargs -n 1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every shipped stability map in full (some minutes; an interrupted one goes on where it was):
+# Draws every shipped stability map in full (some minutes; an interrupted one continues where it was):
 #   scripts/stability_maps.sh [PROGRAM] [FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/.."

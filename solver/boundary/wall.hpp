@@ -39,7 +39,7 @@ struct Image {
   std::int32_t wall;
 };
 
-/// The particle that each image stems from; the first `particles` parents are no images.
+/// The particle that each image stems from; the first `particles` parents are not images.
 std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles);
 
 /// Walls of a case, each facing the soil: what in_soil(place) says beside it or, without an answer, the

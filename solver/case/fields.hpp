@@ -20,7 +20,7 @@ struct Key {
   bool is_required = false;
   bool is_used = true;    ///< false: giving it is an error
   std::string condition;  ///< of being used, for people
-  std::string fallback;   ///< what holds when it is not given, where that is no plain default
+  std::string fallback;   ///< what holds when it is not given, where that is not a plain default
 
   Key(std::string_view name_, std::string_view unit_, std::string_view meaning_)
       : name(name_), unit(unit_), meaning(meaning_) {}

@@ -118,7 +118,7 @@ struct DrainCase {
   static constexpr double own_radius = 0.163;
 };
 
-/// A line that what flows through is told of.
+/// A line whose discharge is reported.
 struct FlowSectionCase {
   std::string name;
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  ///< ends [m]

@@ -9,7 +9,7 @@
 namespace porosph {
 
 /// One warning for each setting of the case that is known to fail: which, what happens, what to choose
-/// instead. Empty for all else; no warning is no promise.
+/// instead. Empty for all else; the absence of a warning promises nothing.
 std::vector<std::string> known_failures(const Case& scene);
 
 }  // namespace porosph

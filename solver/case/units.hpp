@@ -9,7 +9,7 @@ namespace porosph {
 /// A number that was written with its unit, in the unit asked for; or why it is none.
 struct Measure {
   double value = 0;
-  std::string fault;  ///< empty: none; else how the message goes on after the key and its value
+  std::string fault;  ///< empty: none; else how the message continues after the key and its value
 };
 
 /// Reads `text`, a number and a unit of the dimension of `unit`, as a value in `unit` (a unit as in the

@@ -7,7 +7,7 @@ namespace porosph {
 namespace {
 
 // Smaller pieces join a neighbour. Near one half, so that an outline keeps the particles whose cell centre
-// lies inside, as on the plain lattice; not one half itself, which would hang on round-off: it is what a
+// lies inside, as on the plain lattice; not one half itself, which would depend on round-off: it is what a
 // slope through the cells' corners cuts off. Areas reach 1.8 cells; at 0.35 only 1.4, but the stress comes
 // out no better.
 constexpr double sliver = 0.45;

@@ -1,4 +1,4 @@
-// What a run must keep to go on later to the same bits.
+// What a run must keep to continue later to the same bits.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The state of a simulation, kept in memory for others to go on from.
+// The state of a simulation, kept in memory for others to continue from.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,7 @@ namespace porosph {
 /// both parts averaged over the last 1 / omega. It lies between the lowest and the highest frequency that
 /// are excited, and falls to the lowest as the others, which it damps less than critically, die out.
 ///
-/// These three numbers are all that a run which goes on later needs to know.
+/// These three numbers are all that a run that continues later needs to know.
 struct Relaxation {
   double stiffness = 0;  ///< mean of v . K v [W/m/s]
   double inertia = 0;    ///< mean of v . M v [J/m]

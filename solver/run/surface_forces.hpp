@@ -15,7 +15,7 @@ struct SurfaceForces {
   std::vector<Footing> footings;
   std::vector<Sheet> sheets;
 
-  /// Whether anything holds the soil, so that a step's forces hang on its length.
+  /// Whether anything holds the soil, so that a step's forces depend on its length.
   bool hold_soil() const { return !footings.empty() || !sheets.empty(); }
 
   /// Adds what all loads do at a time [s] to the accelerations [m/s2], the model's own among them.

@@ -7,7 +7,7 @@
 
 namespace porosph {
 
-/// What the caller does while a sweep goes on; called by one thread at a time.
+/// What the caller does during a sweep; called by one thread at a time.
 struct SweepWatch {
   /// The verdict of a run that was computed before, by its fingerprint. May be empty.
   std::function<std::optional<Verdict>(std::size_t point, const std::string& fingerprint)> known;

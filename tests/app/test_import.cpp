@@ -94,7 +94,7 @@ TEST_CASE("the levee of the tutorial is computed between its two water levels", 
                        Contains(fmt::format("{:.3g}", enters)));
 }
 
-TEST_CASE("a drawing in millimetres says so, or is told", "[import]") {
+TEST_CASE("a drawing in millimetres says so, or the user does", "[import]") {
   const Workplace place;
   place.write("small.wkt", "sand: POLYGON ((0 0, 4000 0, 4000 2000, 0 2000, 0 0))\n");
   CHECK(imported(place, "small.wkt --unit mm").soils[0].polygon[2] == Point(4, 2));

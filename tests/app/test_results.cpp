@@ -267,7 +267,7 @@ TEST_CASE("the report shows studies as sections") {
   CHECK_THAT(alone.err, Contains("study/index.html"));
 }
 
-TEST_CASE("a failed threshold ends with status 1 and is told") {
+TEST_CASE("a failed threshold ends with status 1 and is reported") {
   const Workplace& place = computed();
   const std::string path = "errors.EffectiveStress_YY.relative_l2";
   CHECK(place.porosph("report consistent --out r --fail-if '" + path + ">0.5'").status == 0);

@@ -52,7 +52,7 @@ TEST_CASE("damaged checkpoints") {
   if (!fs::exists(place.folder() / newest))  // killed while one took the other's place
     fs::copy_file(place.folder() / previous, place.folder() / newest);
 
-  SECTION("of two, the one before goes on") {
+  SECTION("of two, the earlier one is used") {
     spoil(place.folder() / newest);
     CHECK(place.shell("'" POROSPH_PROGRAM "' " + endless +
                       " --resume --quiet & while kill -0 $! && ! grep -q 'is used' err; do sleep 0.01; done; "
@@ -115,7 +115,7 @@ std::map<std::string, std::string> files_of(const fs::path& folder) {
 TEST_CASE("a finished run is resumed to a later end, as if it had had it from the start") {
   const Workplace place;
   place.write("small.toml", small_case);
-  // 0.1 s between frames: 0.55 s is no multiple of it, so the last frame of the short run must go
+  // 0.1 s between frames: 0.55 s is not a multiple of it, so the last frame of the short run must go
   const std::string run = "run small.toml --quiet --set time.end=";
   REQUIRE(place.porosph(run + "0.55 --out parts").status == 0);
   const Outcome second = place.porosph(run + "1.3 --out parts --resume");
@@ -185,7 +185,7 @@ TEST_CASE("a reader of the output that leaves does not end the run") {
   CHECK_THAT(text_of(place.folder() / "run/summary.json"), Contains("\"completed\""));
 }
 
-TEST_CASE("a run that ignores hang-ups, as under nohup, goes on after one") {
+TEST_CASE("a run that ignores hang-ups, as under nohup, continues after one") {
   const Workplace place;
   place.write("small.toml", small_case);
   const int status =
@@ -195,7 +195,8 @@ TEST_CASE("a run that ignores hang-ups, as under nohup, goes on after one") {
   CHECK(status == 130);
 }
 
-TEST_CASE("the steps that disorder asks for are told in the case and the summary, and come out again") {
+TEST_CASE(
+    "the steps that disorder asks for stand in the case and the summary, and are the same when repeated") {
   const Workplace place;
   place.write("small.toml", small_case);
   REQUIRE(place

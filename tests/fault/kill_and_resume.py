@@ -240,7 +240,7 @@ def main():
         if not different:
             shutil.rmtree(folder)
 
-    print(f"{kills} kills in {round_number} runs, {from_checkpoint} with a checkpoint to go on from")
+    print(f"{kills} kills in {round_number} runs, {from_checkpoint} with a checkpoint to continue from")
     if from_checkpoint == 0:
         failures.append("no run was killed late enough to have a checkpoint")
     for failure in failures:

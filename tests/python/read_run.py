@@ -45,7 +45,7 @@ def check_run(run, summary_tolerance):
             last[wrong]
         except KeyError:
             continue
-        raise AssertionError(f"{wrong} is no error")
+        raise AssertionError(f"{wrong} is not an error")
 
 
 def main():

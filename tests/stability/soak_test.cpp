@@ -1,4 +1,4 @@
-// What rests must go on resting.
+// What rests must stay at rest.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -67,7 +67,7 @@ TEST_CASE("slides and cuts that ship run to their end above their base", "[failu
 }
 
 // Clay whose strength falls from 52 to 20 kPa in bands of half a metre.
-TEST_CASE("how far a softening cut comes does not hang on the spacing", "[failure]") {
+TEST_CASE("how far a softening cut comes does not depend on the spacing", "[failure]") {
   const auto settings = [](double spacing) {
     return Settings{fmt::format("particles.spacing={:g}", spacing),
                     "time.end=2",

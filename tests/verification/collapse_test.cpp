@@ -89,7 +89,7 @@ void check_same(const Deposit& d, const Deposit& usual, double allowed) {
 
 }  // namespace
 
-TEST_CASE("how far a column goes does not hang on stiffness, time step or control", "[collapse]") {
+TEST_CASE("how far a column goes does not depend on stiffness, time step or control", "[collapse]") {
   const Deposit usual = after(usual_spacing, [](Case&) {});
   const auto same = [&](const std::string& what, const std::function<void(Case&)>& change) {
     CAPTURE(what);
@@ -102,7 +102,7 @@ TEST_CASE("how far a column goes does not hang on stiffness, time step or contro
   same("control 0.2", [](Case& c) { c.formulation.zero_energy_control = 0.2; });
 }
 
-TEST_CASE("how far a column goes does not hang on the spacing", "[collapse][.nightly]") {
+TEST_CASE("how far a column goes does not depend on the spacing", "[collapse][.nightly]") {
   const Deposit usual = after(usual_spacing, [](Case&) {}), finer = after(fine, [](Case&) {});
   check_same(finer, usual, 0.01);
   CHECK(finer.control < 0.05 * finer.drop);

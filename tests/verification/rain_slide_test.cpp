@@ -16,7 +16,7 @@ Case slope() { return scene("failure/rain_slide", {"particles.spacing=1", "water
 
 }  // namespace
 
-TEST_CASE("rain lets a slope slide, and its history goes on", "[water][dynamic]") {
+TEST_CASE("rain lets a slope slide, and its history continues", "[water][dynamic]") {
   Simulation s(slope());
   std::size_t rows_in_motion = 0;
   double rested_at = 0;  // the displacement
@@ -36,7 +36,7 @@ TEST_CASE("rain lets a slope slide, and its history goes on", "[water][dynamic]"
   CHECK(std::abs(s.seepage()->richards().balance().error()) < 1e-8);
 }
 
-TEST_CASE("a slide goes on to the same bits from a kept state", "[water][dynamic]") {
+TEST_CASE("a slide continues to the same bits from a kept state", "[water][dynamic]") {
   Simulation first(slope()), second(slope());
   first.begin();
   while (!first.in_motion() && !first.instability()) first.advance();

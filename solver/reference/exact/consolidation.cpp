@@ -44,7 +44,7 @@ double own_weight_degree(double factor) {
   return 1 - layer_series(factor, [](double m, int sign) { return sign * 4 / (m * m * m); });
 }
 
-/// With a = lambda h1 / sqrt c1 and b = lambda h2 / sqrt c2, pressure and flow go on where
+/// With a = lambda h1 / sqrt c1 and b = lambda h2 / sqrt c2, pressure and flow are continuous where
 /// cos a cos b = r sin a sin b, r = k2 sqrt c1 / (k1 sqrt c2): atan(r tan a) + b = pi/2 + n pi, which grows
 /// with lambda.
 TwoLayers::TwoLayers(const Layer& upper, const Layer& lower, double unit_weight)

@@ -44,7 +44,7 @@ struct GroundLoad {
   Point traction_from, traction_to;  ///< force per area [Pa]
 };
 
-/// Whether the upright ends of a section are free faces; soil goes on beyond others.
+/// Whether the upright ends of a section are free faces; soil continues beyond others.
 struct FreeEnds {
   bool left = false, right = false;
 };

@@ -10,7 +10,7 @@
 
 namespace porosph {
 
-/// With hardly a neighbour a particle is no part of a continuum: its velocity gradient is noise, and stress
+/// With hardly a neighbour a particle is not part of a continuum: its velocity gradient is noise, and stress
 /// made of that throws it about, the further the stiffer the soil. So a loose particle bears no stress. Its
 /// neighbours carry it along by the zero-energy control, and walls stop and hold it.
 class LooseParticles {

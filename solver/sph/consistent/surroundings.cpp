@@ -56,7 +56,7 @@ Surroundings::Surroundings(const Model& model)
 
 SeenNeighbours Surroundings::find(const Model& model) {
   // Most bodies are asked once: a skin would cost them more than it saves.
-  if (!std::exchange(asked_before_, true) || !model.visibility.everywhere()) return found_anew(model);
+  if (!std::exchange(asked_before_, true) || !model.visibility.everywhere()) return found_by_search(model);
   if (!candidates_hold(model)) look_for_candidates(model);
   SeenNeighbours seen{.points = model.particles.position, .ghosts = {}, .list = {}};
   seen.ghosts = ghosts_behind_walls(model, support_, seen.points);
@@ -64,7 +64,7 @@ SeenNeighbours Surroundings::find(const Model& model) {
   return seen;
 }
 
-SeenNeighbours Surroundings::found_anew(const Model& model) {
+SeenNeighbours Surroundings::found_by_search(const Model& model) {
   SeenNeighbours seen{.points = model.particles.position, .ghosts = {}, .list = {}};
   seen.ghosts = ghosts_behind_walls(model, support_, seen.points);
   seen.list = find_neighbours(seen.points, model.particles.size(), reach_);

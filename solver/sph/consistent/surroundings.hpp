@@ -48,7 +48,7 @@ class Surroundings {
   bool candidates_hold(const Model& model) const;
   void look_for_candidates(const Model& model);
   void search_where_they_were(const Model& model);
-  SeenNeighbours found_anew(const Model& model);
+  SeenNeighbours found_by_search(const Model& model);
   NeighbourList near_candidates(const SeenNeighbours& seen, const Particles& particles) const;
   bool of_one_body(std::int32_t a, std::int32_t b, const Particles& p) const {
     return body_.empty() || body_[p.soil[a]] == body_[p.soil[b]];

@@ -10,7 +10,7 @@ enum class VectorUnits { portable, avx2, avx512 };
 
 /// The widest that this program was built for and this processor has; or what the environment variable
 /// POROSPH_VECTOR_UNITS (portable, avx2, avx512) names, for comparison. Decided once.
-/// Throws std::runtime_error where that is no such name or the processor lacks them.
+/// Throws std::runtime_error where there is no such name or the processor lacks them.
 VectorUnits vector_units();
 
 /// All that this program was built for and this processor has, widest first.

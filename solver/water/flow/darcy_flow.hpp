@@ -64,7 +64,7 @@ class DarcyFlow {
   std::int32_t holder(std::int32_t patch) const { return holder_[patch]; }
   std::int32_t fed_by(std::int32_t patch) const { return fed_by_patch_[patch]; }  ///< takes its rate, or -1
   double patch_length(std::int32_t patch) const { return patch_length_[patch]; }  ///< [m]
-  /// Whether the face that a pair passes has a head now, so that it is no pair of two particles.
+  /// Whether the face that a pair passes has a head now, so that it is not a pair of particles.
   bool has_head(const FacePair& pair, const FaceConditions& faces) const { return image(pair, faces).fixed; }
   /// From particle b to a [m2/s], of conductance c.
   double between(std::int32_t a, std::int32_t b, double c, std::span<const double> head) const;

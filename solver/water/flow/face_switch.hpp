@@ -15,7 +15,7 @@ namespace porosph {
 ///   q = q(wet) if q(wet) < supply,  q(dry) if q(dry) > supply,  else supply.
 ///
 /// Seepage changes patch by patch; patches of rain that one particle takes the rate of change together. One
-/// that goes on changing stays where it is held by nothing: the water table meets the face there, to within a
+/// that keeps changing stays where it is held by nothing: the water table meets the face there, to within a
 /// patch.
 class FaceSwitch {
  public:

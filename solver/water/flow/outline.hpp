@@ -38,7 +38,7 @@ struct HydraulicOutline {
   int patch_at(int stretch, double along) const;
 };
 
-/// Of the outline that no other soil covers; stretches of several soils that go on in one line are one. Of
+/// Of the outline that no other soil covers; stretches of several soils that continue in one line are one. Of
 /// faces that overlap the later one holds. Patches are at most half a spacing [m] long.
 HydraulicOutline hydraulic_outline(const std::vector<SoilCase>& soils,
                                    const std::vector<HydraulicFaceCase>& faces, double spacing);

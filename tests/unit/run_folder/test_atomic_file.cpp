@@ -24,7 +24,7 @@ TEST_CASE("an empty file is written and read back") {
   CHECK(read_file(folder / "file").empty());
 }
 
-TEST_CASE("a temporary left by a killed job is no hindrance") {
+TEST_CASE("a temporary left by a killed job does no harm") {
   const TemporaryFolder folder;
   put(folder / ".file.part", "left over");
   write_file(folder / "file", "new");

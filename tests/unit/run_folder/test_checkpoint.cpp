@@ -48,7 +48,7 @@ void check_same_state(const Simulation& a, const Simulation& b) {
 
 }  // namespace
 
-TEST_CASE("a restored simulation goes on to the same bits", "[checkpoint]") {
+TEST_CASE("a restored simulation continues to the same bits", "[checkpoint]") {
   const Motion motion = GENERATE(Motion::consistent, Motion::proposed, Motion::conventional);
   const int steps_before = GENERATE(0, 1, 40, 133);
   const bool looked_at = GENERATE(false, true);  // looking at the forces prepares the next step
@@ -70,7 +70,7 @@ TEST_CASE("a restored simulation goes on to the same bits", "[checkpoint]") {
   check_same_state(original, restored);
 }
 
-TEST_CASE("soils that meet and yield go on to the same bits", "[checkpoint]") {
+TEST_CASE("soils that meet and yield continue to the same bits", "[checkpoint]") {
   const int steps_before = GENERATE(1, 40, 133);
   Case scene = soft_column(Motion::consistent);
   SoilCase upper = scene.soils[0];

@@ -125,7 +125,7 @@ TEST_CASE("a history that vanished is missed at the next flush") {
   CHECK_THROWS_WITH(writer.flush(), Contains("history.csv: it was removed"));
 }
 
-TEST_CASE("a resumed history goes on after the given time") {
+TEST_CASE("a resumed history continues after the given time") {
   const TemporaryFolder folder;
   const auto file = folder / "history.csv";
   std::uint32_t checksum_up_to_there = 0;

@@ -21,7 +21,7 @@ SafetyAnswer answer_of(double stable_at, double fails_at) {
 
 }  // namespace
 
-TEST_CASE("Factors of safety that are more than 5 % apart are told") {
+TEST_CASE("Factors of safety that are more than 5 % apart are reported") {
   CHECK(disagreement(answer_of(1.259, 1.27)).empty());
   CHECK_THAT(disagreement(answer_of(1.261, 1.27)),
              Contains("still stand at 1.261, 5 % above the 1.2 of limit equilibrium (Spencer on circles)"));

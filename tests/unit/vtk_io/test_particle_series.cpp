@@ -197,7 +197,7 @@ TEST_CASE("a new series takes the place of an older, longer one, and leaves othe
         std::vector<std::string>{"notes.txt", "particles_000000.vtp", "particles_000001.vtp"});
 }
 
-TEST_CASE("a resumed series goes on after the given time") {
+TEST_CASE("a resumed series continues after the given time") {
   const TemporaryFolder folder;
   std::vector<std::uint32_t> checksums;
   {
@@ -253,7 +253,7 @@ TEST_CASE("a series that was changed is not resumed") {
   CHECK(SeriesWriter::resume(folder.path(), 0.2, checksums).frames().size() == 3);
 }
 
-TEST_CASE("frames that are not consistent are refused, and the series goes on") {
+TEST_CASE("inconsistent frames are refused, and the series continues") {
   const TemporaryFolder folder;
   SeriesWriter series(folder.path());
   series.write(example_frame(1));

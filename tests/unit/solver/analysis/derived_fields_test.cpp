@@ -135,7 +135,7 @@ TEST_CASE("computed fields are those that the run would have written", "[output]
   }
 }
 
-TEST_CASE("an unknown field is told what there is", "[output]") {
+TEST_CASE("the error about an unknown field lists the known ones", "[output]") {
   const Frame frame = stressed({}, 0);
   CHECK_THROWS_WITH(values_of(frame, {"VonMisesStres", ""}),
                     Contains("did you mean 'VonMisesStress'?") &&

@@ -149,7 +149,7 @@ TEST_CASE("water") {
   CHECK(c.water.stretches.at(1).x_to == never);
 }
 
-TEST_CASE("all errors are told at once, in the order of the file") {
+TEST_CASE("all errors are reported at once, in the order of the file") {
   std::string text = with("youngs_modulus = 1e6", "youngs_modulus = 0");
   text.replace(text.find("end = 1"), 7, "ende = 1");
   text += "[[probe]]\nname = \"A\"\nposition = [9, 1]\n[[probe]]\nname = \"A\"\nposition = [1, 1]\n";

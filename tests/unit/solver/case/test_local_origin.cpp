@@ -58,7 +58,7 @@ TEST_CASE("messages name places to the centimetre, also far from zero") {
   CHECK_THAT(breakdown->message, Catch::Contains("(from x = 1000000.250 m, y = 4512345.500 m)"));
 }
 
-TEST_CASE("what water cannot do is told with the case's coordinates, not with local ones") {
+TEST_CASE("what water cannot do is reported with the case's coordinates, not with local ones") {
   Case scene = seepage_box(2, 1, 0.25);
   scene.water.mode = WaterMode::steady;
   Case with_drain = scene;

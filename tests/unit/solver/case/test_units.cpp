@@ -48,7 +48,7 @@ TEST_CASE("other units are converted", "[units]") {
   CHECK(value("1 kg/s2/m", "Pa") == 1);
 }
 
-TEST_CASE("what is no measure of the dimension is told", "[units]") {
+TEST_CASE("a value that does not measure the dimension is an error", "[units]") {
   CHECK(read_measure("15", "Pa").fault ==
         "must be a number in Pa, or text of a number and a unit; allowed are Pa, kPa, MPa, GPa, bar, kN/m2, "
         "psi, psf");

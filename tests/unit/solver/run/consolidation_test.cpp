@@ -87,7 +87,7 @@ struct Column {
 
 }  // namespace
 
-TEST_CASE("a column consolidates under its weight as Terzaghi has it", "[water][consolidation]") {
+TEST_CASE("a column consolidates under its weight as in Terzaghi's solution", "[water][consolidation]") {
   const Arrangement arrangement = GENERATE(Arrangement::surface, Arrangement::stretched);
   Column c(column(20, arrangement));
   const double last = c.buoyant() * height * height / (2 * c.modulus());
@@ -100,7 +100,7 @@ TEST_CASE("a column consolidates under its weight as Terzaghi has it", "[water][
   }
 }
 
-TEST_CASE("how long consolidation computes does not hang on permeability", "[water][consolidation]") {
+TEST_CASE("how long consolidation computes does not depend on permeability", "[water][consolidation]") {
   const auto sweeps = [](double permeability) {
     Column c(column(10, Arrangement::surface, permeability));
     c.run_to(c.time_of(0.2));

@@ -77,7 +77,8 @@ TEST_CASE("neither permeability nor stiffness of the water changes the steps of 
     }
 }
 
-TEST_CASE("soil in motion consolidates as Terzaghi has it where inertia is small", "[water][dynamic]") {
+TEST_CASE("soil in motion consolidates as in Terzaghi's solution where inertia is small",
+          "[water][dynamic]") {
   constexpr double height = 4, factor = 0.2;
   Case scene = column(height, 20, WaterMode::coupled);
   load_top(scene, load);
@@ -123,7 +124,7 @@ TEST_CASE("a closed block of soil and water makes no energy", "[water][dynamic]"
   CHECK(late - early > -0.0006);    // but what the implicit pressure damps in 400 steps
 }
 
-TEST_CASE("soil in motion goes on from a kept state to the same bits", "[water][dynamic]") {
+TEST_CASE("soil in motion continues from a kept state to the same bits", "[water][dynamic]") {
   Case scene = column(4, 10, WaterMode::coupled);
   load_top(scene, load);
   scene.formulation.refresh_strain = 1e-5;  // so that its reference is renewed before and after
@@ -212,7 +213,7 @@ TEST_CASE("a block that keeps its water loses equilibrium at its undrained stren
   CHECK(s.water_in_motion()->misfit() < 1e-4);
 }
 
-TEST_CASE("soil that has lost its equilibrium goes on from a kept state to the same bits",
+TEST_CASE("soil that has lost its equilibrium continues from a kept state to the same bits",
           "[water][dynamic][automatic]") {
   Simulation first(slowly_pressed_block(1)), second(slowly_pressed_block(1));
   const int steps_after = GENERATE(-1, 0, 40);

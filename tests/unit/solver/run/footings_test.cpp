@@ -230,7 +230,7 @@ TEST_CASE("a footing is driven by its settlement in a stage", "[footing]") {
   CHECK(pressed->footings()[0].force() == Approx(3e3).epsilon(0.01));
 }
 
-TEST_CASE("a state with a footing is kept and goes on to the same bits", "[footing]") {
+TEST_CASE("a state with a footing is kept and continues to the same bits", "[footing]") {
   Case scene = column(Arrangement::surface);
   scene.loading.gravity_applied = true, scene.stop.unbalanced_force_ratio = 1e-4;
   scene.footings[0].force = 3e3;

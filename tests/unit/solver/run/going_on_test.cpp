@@ -26,7 +26,8 @@ Case collapsing(Motion motion, BoundaryKind base) {
 
 }  // namespace
 
-TEST_CASE("flowing soil goes on to the same bits from any step, with its forces summed or not", "[resume]") {
+TEST_CASE("flowing soil continues to the same bits from any step, with its forces summed or not",
+          "[resume]") {
   const Motion motion = GENERATE(Motion::consistent, Motion::proposed);
   const BoundaryKind base = motion == Motion::proposed
                                 ? BoundaryKind::fixed

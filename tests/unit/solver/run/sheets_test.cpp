@@ -266,7 +266,7 @@ TEST_CASE("a sheet is placed without force, bends as soil is dug, and is pulled 
   CHECK(tops[1] < -10 * std::abs(tops[0]));
 }
 
-TEST_CASE("a state with a sheet is kept and goes on to the same bits", "[sheet]") {
+TEST_CASE("a state with a sheet is kept and continues to the same bits", "[sheet]") {
   const Case scene = dug_beside_a_sheet();
   StagePlan plan(scene);
   Simulation start(plan.scene());

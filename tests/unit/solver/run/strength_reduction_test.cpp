@@ -119,7 +119,7 @@ TEST_CASE("a slope that was dug has the factor of one that always was there", "[
   CHECK(same.trials.front().displacement < 0.1 * same.at_rest);
 }
 
-TEST_CASE("a simulation goes on from a kept state to the same bits", "[safety]") {
+TEST_CASE("a simulation continues from a kept state to the same bits", "[safety]") {
   Case scene = slope(1);
   scene.time.end = 1, scene.formulation.refresh_strain = never;
   Simulation first(scene);

@@ -4,7 +4,7 @@
 
 using namespace porosph;
 
-TEST_CASE("places are told to six digits, and to the millimetre at least") {
+TEST_CASE("places are written to six digits, and to the millimetre at least") {
   CHECK(place_text({0, -2.5}) == "(0, -2.5)");
   CHECK(place_text({40.0 / 3, 1e-3 / 3}) == "(13.3333, 0.000333333)");
   CHECK(place_text({1000013.125, 4512345.25}) == "(1000013.125, 4512345.25)");

@@ -73,7 +73,7 @@ TEST_CASE("contact of elastic bodies conserves momentum and energy", "[motion]")
   CHECK(simulation.energy().total() == Approx(energy).epsilon(0.01));
 }
 
-TEST_CASE("a run with contact goes on to the same bits from a saved state", "[motion]") {
+TEST_CASE("a run with contact continues to the same bits from a saved state", "[motion]") {
   Case scene = box_of_soil(4, 4);
   scene.soils.push_back(scene.soils[0]);
   scene.soils[1].name = "right";

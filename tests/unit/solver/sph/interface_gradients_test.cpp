@@ -73,7 +73,7 @@ TEST_CASE("a gradient that bends where level soils meet is exact on both sides",
   }
 }
 
-TEST_CASE("a bend that varies along the interface is no strain along it", "[interface]") {
+TEST_CASE("a bend that varies along the interface does not count as strain along it", "[interface]") {
   Case scene = two_soils(0, 1e3, 0.3, 0.3);
   Model model = build_model(scene);
   const Mat2 above = (Mat2() << 1e-6, 2e-6, -5e-7, -3e-6).finished();

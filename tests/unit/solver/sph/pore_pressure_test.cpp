@@ -63,7 +63,7 @@ TEST_CASE("hydrostatic pore pressure is a buoyancy, exact on any particles", "[m
     CHECK((a[i] - Vec2(0, 9810 / model.particles.density[i])).norm() < 1e-10);
 }
 
-TEST_CASE("water that ends at a wall goes on behind it", "[motion]") {
+TEST_CASE("water that ends at a wall continues behind it", "[motion]") {
   Case scene = box_of_soil(8, 6);
   hold_as_column(scene, GENERATE(BoundaryKind::fixed, BoundaryKind::roller));
   scene.formulation.motion = GENERATE(Motion::conventional, Motion::proposed, Motion::consistent);

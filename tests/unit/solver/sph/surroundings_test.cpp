@@ -43,7 +43,7 @@ TEST_CASE("what moving particles see is what a search from scratch finds", "[nei
   CHECK(surroundings.searches() < 30);
 }
 
-TEST_CASE("strangers are found once they come near, and neighbours are no strangers", "[neighbours]") {
+TEST_CASE("strangers are found once they come near, and neighbours are not strangers", "[neighbours]") {
   Model model = soil_in_a_corner();
   Surroundings surroundings(model);
   std::vector<double> volumes;

@@ -91,7 +91,7 @@ TEST_CASE("an axis is given on the command line", "[sweep]") {
   CHECK_THROWS_AS(parse_axis("time.courant=1,,2"), CaseError);
 }
 
-TEST_CASE("a sweep runs what is not known, and refuses what is no case", "[sweep]") {
+TEST_CASE("a sweep runs what is not known, and refuses what is not a case", "[sweep]") {
   Sweep sweep;
   sweep.case_file = POROSPH_SOURCE_DIR "/cases/verification/column.toml";
   sweep.settings = {"particles.spacing=1", "loading.damping=0.3"};

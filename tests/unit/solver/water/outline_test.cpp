@@ -45,7 +45,7 @@ TEST_CASE("of faces that overlap the later one holds", "[water]") {
   CHECK(unnamed_stretch(outline).empty());
 }
 
-TEST_CASE("what no face names is told", "[water]") {
+TEST_CASE("what no face names is reported", "[water]") {
   Case scene = seepage_box(2, 1, 0.1);
   scene.water.faces = {head_face({0, 0}, {0, 1}, 1), head_face({0, 0}, {2, 0}, 1),
                        head_face({2, 0}, {2, 1}, 1), head_face({0, 1}, {1.5, 1}, 1)};

@@ -94,7 +94,7 @@ TEST_CASE("a level that rises and falls fills the soil and drains it in few step
   CHECK(flow.water.richards().counts().steps < 2000);  // the coarse sand takes about 1000
 }
 
-TEST_CASE("water that finds no room is told with its place and time", "[water]") {
+TEST_CASE("water that finds no room is reported with its place and time", "[water]") {
   Case scene = over_time(1, 2, 0.25);
   scene.water.transient.start_level = 3;  // full
   scene.water.coupling.bulk_modulus = CouplingCase::incompressible;
@@ -162,7 +162,7 @@ TEST_CASE("a drain takes what flows to it", "[water]") {
   for (std::size_t a = 0; a < water.record()->head.size(); ++a) CHECK(water.record()->head[a] >= 1.5 - 1e-9);
 }
 
-TEST_CASE("soil that follows a flow goes on from a kept state to the same bits", "[water]") {
+TEST_CASE("soil that follows a flow continues from a kept state to the same bits", "[water]") {
   Case scene = over_time(1, 2, 0.2);
   scene.formulation = default_formulation(Motion::consistent);
   scene.water.transient.start_level = 0.7;
