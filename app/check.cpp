@@ -10,6 +10,7 @@
 #include "app/memory.hpp"
 #include "app/shipped_cases.hpp"
 #include "app/stopwatch.hpp"
+#include "app/summarise.hpp"
 #include "app/threads.hpp"
 #include "app/warnings.hpp"
 #include "solver/case/case_file.hpp"
@@ -146,6 +147,8 @@ void print_model(const Simulation& s) {
   }
   print_settings(s.scene());
   print("wave speed c_p", fmt::format("{:.4g} m/s", m.wave_speed));
+  if (const auto inertia = scaled_inertia(s.scene()); !inertia.empty())
+    print("inertia", inertia_text(inertia));
   if (s.consolidation() != nullptr) return print_consolidation(s);
   if (s.seepage() != nullptr) return;
   print("time step",

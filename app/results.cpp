@@ -103,7 +103,7 @@ std::string remark_on(const Simulation& s) {
   const double asked = s.scene().time.courant;
   if (s.courant() >= asked) return "";
   return fmt::format(
-      "# The stiffest of the disordered particles allow a Courant number of {} only. It is used in place of\n"
+      "# The stiffest of the particles allow a Courant number of {} only. It is used in place of\n"
       "# time.courant = {}, also when this file is run again: the time step is {} s.\n",
       s.courant(), asked, s.time_step());
 }

@@ -10,6 +10,7 @@
 #include "app/check_by_fem.hpp"
 #include "app/colour.hpp"
 #include "solver/case/case_file.hpp"
+#include "solver/case/inertia.hpp"
 #include "solver/output/sheet_frames.hpp"
 #include "solver/run/monitor/zigzag.hpp"
 #include "solver/run/reference_errors.hpp"
@@ -185,6 +186,7 @@ Summary summarise(StagedRun& run, const RunOutcome& outcome, double wall_seconds
   if (s.in_motion()) summary.motion = motion_summary(s);
   if (s.follows_flow()) summary.steps += s.moves(), particle_steps += summary.particles * s.moves();
   summary.courant = s.courant();
+  summary.scaled_inertia = scaled_inertia(s.scene());
   summary.threads = omp_get_max_threads();
   summary.wall_seconds = wall_seconds;
   summary.stepping_seconds = outcome.stepping_seconds;
@@ -228,6 +230,7 @@ std::string tell(const Summary& s) {
   if (s.particle_steps_per_second > 0)  // of a flow in soil that keeps still there are none
     text += fmt::format(", {:.2f} M particle-steps/s", s.particle_steps_per_second / 1e6);
   text += "\n";
+  if (!s.scaled_inertia.empty()) text += "inertia " + inertia_text(s.scaled_inertia) + "\n";
   if (!std::isfinite(s.energy_growth)) return text;  // broken down: there is no state to tell of
   if (std::isfinite(s.unbalanced_force_ratio))
     text += fmt::format("unbalanced force ratio {:.2e}\n", s.unbalanced_force_ratio);
@@ -263,6 +266,21 @@ std::string tell(const Summary& s) {
   }
   if (s.finite_elements) text += tell(*s.finite_elements);
   return text;
+}
+
+std::map<std::string, double> scaled_inertia(const Case& scene) {
+  const std::vector<double> inertia = inertia_over_mass(scene);
+  std::map<std::string, double> scaled;
+  for (std::size_t i = 0; i < inertia.size(); ++i)
+    if (inertia[i] > 1) scaled[scene.soils[i].name] = inertia[i];
+  return scaled;
+}
+
+std::string inertia_text(const std::map<std::string, double>& scaled) {
+  std::vector<std::string> parts;
+  for (const auto& [soil, inertia] : scaled)
+    parts.push_back(fmt::format("{:.3g} times in '{}'", inertia, soil));
+  return fmt::format("on the way to rest that of the mass {}: time does not count", fmt::join(parts, ", "));
 }
 
 }  // namespace porosph::app

@@ -208,9 +208,11 @@ struct LoadingCase {
   bool k0_stress = false;       ///< start from the K0 stress instead of zero stress
   double k0 = -1;      ///< horizontal / vertical effective stress; negative: nu / (1 - nu) of each soil
   double damping = 0;  ///< xi of eq. (34) [-]
-  bool adaptive_damping = false;  ///< c_d from the lowest vibration of the motion, in place of xi / dt
-  double damping_until = never;   ///< time at which the damping ends [s]
-  double horizontal = 0;          ///< acceleration to the right over g, beside gravity (pseudo-static) [-]
+  bool adaptive_damping = false;    ///< c_d from the lowest vibration of the motion, in place of xi / dt
+  bool scaled_inertia = false;      ///< whether all soils get the softest one's wave speed on the way to rest
+  bool scaled_inertia_auto = true;  ///< where that is possible and pays, in place of the above
+  double damping_until = never;     ///< time at which the damping ends [s]
+  double horizontal = 0;            ///< acceleration to the right over g, beside gravity (pseudo-static) [-]
 };
 
 struct TimeCase {

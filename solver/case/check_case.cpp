@@ -12,6 +12,7 @@
 #include "solver/case/check_sheets.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
+#include "solver/case/inertia.hpp"
 #include "solver/case/shapes.hpp"
 #include "solver/case/stages.hpp"
 #include "solver/space/place_text.hpp"
@@ -264,6 +265,9 @@ std::vector<CaseIssue> check_settings(const Case& c) {
   if (!c.check.finite_elements_auto && c.check.finite_elements)
     if (const std::string reason = fem_obstacle(c); !reason.empty())
       issues.push_back({"check.finite_elements", "they do not apply: " + reason});
+  if (!c.loading.scaled_inertia_auto && c.loading.scaled_inertia)
+    if (const std::string reason = inertia_obstacle(c); !reason.empty())
+      issues.push_back({"loading.scaled_inertia", "is not possible: " + reason});
   return issues;
 }
 

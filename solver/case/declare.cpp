@@ -249,6 +249,17 @@ void declare(Fields& f, LoadingCase& c) {
                .only_if(c.damping > 0 || c.adaptive_damping, "damping > 0")
                .otherwise("never"),
            c.damping_until, above(0, longest));
+  f.flag_or(
+      Key("scaled_inertia", "",
+          "Whether stiff soils get inertia beyond their mass on the way to rest, so that no soil has faster "
+          "waves "
+          "than the softest: time steps are then longer, and time has no meaning. Weight and the state of "
+          "rest stay "
+          "the same. `\"auto\"`: where only the state of rest of elastic soil is asked for and soils differ "
+          "enough "
+          "(docs/theory.md); `true`: an error where more is asked for; `false`: the soil moves by its mass.")
+          .only_if(c.adaptive_damping, "damping = \"adaptive\""),
+      c.scaled_inertia, "auto", c.scaled_inertia_auto);
   f.number(
       Key("horizontal", "",
           "Acceleration to the right over g that acts on the soil beside gravity: the coefficient k_h of a "

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/case/inertia.hpp"
 #include "solver/case/shapes.hpp"
-#include "solver/soil/elasticity.hpp"
 
 namespace porosph {
 namespace {
@@ -24,15 +24,11 @@ double bytes_per_particle(const Case& scene) {
 
 /// Of the fastest compression wave, in the lightest state of each soil [m/s].
 double wave_speed(const Case& scene) {
+  const std::vector<double> inertia = inertia_over_mass(scene);
   double fastest = 0;
-  for (const SoilCase& soil : scene.soils) {
-    const double modulus =
-        Elasticity::from_young(soil.youngs_modulus, soil.poissons_ratio).constrained_modulus();
-    const double density =
-        std::min(soil.unit_weight_saturated, soil.unit_weight_unsaturated) / scene.loading.gravity;
-    if (density > 0) fastest = std::max(fastest, std::sqrt(modulus / density));
-  }
-  return fastest;
+  for (std::size_t i = 0; i < scene.soils.size(); ++i)
+    fastest = std::max(fastest, modulus_over_density(scene.soils[i], scene.loading.gravity) / inertia[i]);
+  return std::sqrt(fastest);
 }
 
 }  // namespace

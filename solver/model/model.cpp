@@ -9,6 +9,7 @@
 
 #include "solver/boundary/water_face.hpp"
 #include "solver/case/check_boundaries.hpp"
+#include "solver/case/inertia.hpp"
 #include "solver/case/local_origin.hpp"
 #include "solver/case/plausibility.hpp"
 #include "solver/geometry/place_particles.hpp"
@@ -152,9 +153,12 @@ Model build_model(const Case& case_as_drawn) {
   model.walls = walls_of(scene, model.particles.position);
   model.visibility = Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length,
                                 model.spacing, scene.sheets);
+  const std::vector<double> inertia = inertia_over_mass(scene);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {
-    const double modulus = model.soils[model.particles.soil[i]].constrained_modulus();
-    model.wave_speed = std::max(model.wave_speed, std::sqrt(modulus / model.particles.density[i]));
+    const std::int32_t soil = model.particles.soil[i];
+    const double modulus = model.soils[soil].constrained_modulus();
+    model.wave_speed =
+        std::max(model.wave_speed, std::sqrt(modulus / (model.particles.density[i] * inertia[soil])));
   }
   model.press = press_of(scene);
   model.loads = water_faces(scene, model.particles, 2 * model.smoothing_length);

@@ -35,7 +35,8 @@ struct Model {
   double spacing = 0;            ///< dx [m]
   double smoothing_length = 0;   ///< h [m]
   Vec2 gravity = Vec2::Zero();   ///< [m/s2]
-  double wave_speed = 0;         ///< fastest c_p = sqrt(M / rho) of all soils, water not moving along [m/s]
+  double wave_speed = 0;         ///< fastest c_p = sqrt(M / rho) of all soils, water not moving along, with
+                                 ///< inertia_over_mass() [m/s]
   Point origin = Point::Zero();  ///< what all positions here are relative to, in the case's coordinates [m]
   std::string usual_cause;       ///< what a breakdown of this case most likely comes from
 };

@@ -64,6 +64,8 @@ struct Summary {
   int threads = 1;
   double wall_seconds = 0, stepping_seconds = 0, particle_steps_per_second = 0;
   std::int64_t peak_memory_bytes = 0;
+  /// Soil -> inertia over mass, of the soils whose inertia was scaled.
+  std::map<std::string, double> scaled_inertia;
   double unbalanced_force_ratio = 0;
   double energy_growth =
       0;  ///< total energy gained since the start over what moves and strains at the end [-]

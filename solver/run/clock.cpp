@@ -14,11 +14,13 @@ namespace {
 /// omega h / c_p of a lattice, at its corners, for which Courant numbers are meant.
 constexpr double lattice_frequency = 1.7;
 
-/// The case's, or less where disorder makes single particles stiffer than they are in a lattice.
+/// The case's, or less where disorder, or stiff soil beside soil of less inertia, makes single particles
+/// stiffer than they are in a lattice.
 double courant_number(const Case& scene, const Model& model) {
-  if (scene.particles.arrangement != Arrangement::disordered) return scene.time.courant;
+  const ScaledInertia inertia(scene, model);
+  if (scene.particles.arrangement != Arrangement::disordered && !inertia.acts()) return scene.time.courant;
   const double frequency =
-      highest_frequency(scene.formulation, model) * model.smoothing_length / model.wave_speed;
+      highest_frequency(scene.formulation, model, inertia) * model.smoothing_length / model.wave_speed;
   return scene.time.courant * std::min(1.0, lattice_frequency / frequency);
 }
 

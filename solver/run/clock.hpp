@@ -10,7 +10,7 @@ namespace porosph {
 
 struct Clock {
   double start = 0;                      ///< 0, but in later stages [s]
-  double courant = 0;                    ///< the case's, or less where disorder requires it
+  double courant = 0;                    ///< the case's, or less where single particles require it
   double dt = 0;                         ///< that steps are counted by [s]
   std::int64_t step = 0, last_step = 0;  ///< the last one reaches the case's end time
   std::int64_t ticks = 1;                ///< of dt that the next step takes

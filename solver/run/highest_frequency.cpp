@@ -24,7 +24,7 @@ FormulationCase without_viscosity(FormulationCase f) {
 
 }  // namespace
 
-double highest_frequency(const FormulationCase& formulation, Model model) {
+double highest_frequency(const FormulationCase& formulation, Model model, const ScaledInertia& inertia) {
   for (Soil& soil : model.soils) soil = Soil(LinearElastic{soil.elastic()});
   const auto dynamics = make_dynamics(without_viscosity(formulation), model);
   std::vector<Vec2>& v = model.particles.velocity;
@@ -42,6 +42,7 @@ double highest_frequency(const FormulationCase& formulation, Model model) {
     dynamics->strain(dt);
     dynamics->accelerations(after);
     for (std::size_t a = 0; a < v.size(); ++a) v[a] = (before[a] - after[a]) / dt;
+    inertia.scale(v);
     frequency_squared = norm(v) / small;
     scale = small / norm(v);
     before.swap(after);

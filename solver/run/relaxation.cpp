@@ -22,11 +22,12 @@ struct Sums {
 }  // namespace
 
 void Relaxation::measure(const Particles& p, std::span<const Vec2> before, std::span<const Vec2> after,
-                         double dt) {
-  const Sums now = deterministic_sum<Sums>(p.size(), [&](std::size_t i) {
+                         double dt, std::optional<double> of_scaled) {
+  Sums now = deterministic_sum<Sums>(p.size(), [&](std::size_t i) {
     return Sums{p.mass[i] * p.velocity[i].dot(before[i] - after[i]) / dt,
                 p.mass[i] * p.velocity[i].squaredNorm()};
   });
+  if (of_scaled) now.inertia = *of_scaled;
   const double kept = std::exp(-0.5 * damping * steps_between * dt);  // the last 1 / omega counts
   stiffness = stiffness * kept + now.stiffness, inertia = inertia * kept + now.inertia;
   if (stiffness > 0 && inertia > 0) damping = std::min(2 * std::sqrt(stiffness / inertia), 1 / dt);

@@ -1,6 +1,7 @@
 // Adaptive dynamic relaxation: as much damping as brings the motion at hand to rest soonest.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -25,10 +26,11 @@ struct Relaxation {
 
   static constexpr int steps_between = 5;  ///< measurements; the means change more slowly
 
-  /// From the accelerations at both ends of a step dt [s] and the velocities in it. A body at rest, or one
-  /// that softens as it moves, changes nothing.
+  /// From the accelerations of the true masses at both ends of a step dt [s] and the velocities in it. A body
+  /// at rest, or one that softens as it moves, changes nothing. `inertia`: v . M v [J/m], where M is not the
+  /// masses.
   void measure(const Particles& particles, std::span<const Vec2> before, std::span<const Vec2> after,
-               double dt);
+               double dt, std::optional<double> inertia = {});
   /// Saves or restores them, under names that begin so.
   void visit(StateArchive& state, std::string_view name);
 };

@@ -22,7 +22,7 @@ namespace {
 /// of a speed, or not finite, or turned inside out. One loop over plain numbers, so that it becomes vector
 /// code.
 std::int64_t move_particles(std::size_t first, std::size_t last, Kick kick, double dt, double limit,
-                            Particles& p, const std::vector<Vec2>& accelerations) {
+                            Particles& p, std::span<const Vec2> accelerations) {
   double *v = p.velocity.data()->data(), *x = p.position.data()->data();
   const double *a = accelerations.data()->data(), *density = p.density.data();
   std::int64_t runaways = 0;
@@ -79,8 +79,10 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   if (scene.water.couples() && !motion_.now) couple();
   flow_.seepage = std::dynamic_pointer_cast<TransientWater>(model_.pore_water);
   if (flow_.seepage) time_by_flow();
+  to_rest_.inertia = ScaledInertia(scene, model_);
   if (beginning.state == nullptr) return;
   take_over(beginning, scene, model_);
+  to_rest_.inertia = ScaledInertia(scene, model_);
   for (Footing& footing : surface_.footings) {
     const auto there = beginning.state->settlements.find(footing.name());
     footing.place(model_.particles, there == beginning.state->settlements.end() ? 0 : there->second);
@@ -212,7 +214,7 @@ void Simulation::reduce_strength(double factor) {
 double Simulation::damping() const {
   const LoadingCase& loading = scene_.loading;
   if (time() >= loading.damping_until) return 0;
-  return loading.adaptive_damping ? relaxation_.damping : loading.damping / step_length();
+  return loading.adaptive_damping ? to_rest_.relaxation.damping : loading.damping / step_length();
 }
 
 std::span<const Vec2> Simulation::accelerations() {
@@ -223,6 +225,15 @@ std::span<const Vec2> Simulation::accelerations() {
     forces_.valid = true;
   }
   return forces_.accelerations;
+}
+
+/// Those of the scaled inertia, where it acts.
+std::span<const Vec2> Simulation::inertial_accelerations() {
+  const auto of_mass = accelerations();
+  if (!to_rest_.inertia.acts()) return of_mass;
+  to_rest_.accelerations.assign(of_mass.begin(), of_mass.end());
+  to_rest_.inertia.scale(to_rest_.accelerations);
+  return to_rest_.accelerations;
 }
 
 /// Where pressure moves with the soil, p_w is that of the water that stands meanwhile.
@@ -245,7 +256,7 @@ void Simulation::hold_soil(std::span<Vec2> accelerations) {
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
   if (moves() == 0 || rests_in_flow()) return v;
-  const auto a = accelerations();
+  const auto a = inertial_accelerations();
   const Kick kick = half_kick(damping(), step_length());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
@@ -274,7 +285,11 @@ void Simulation::advance_in_motion() {
   dynamics_->strain(step_length(), of_water);
   model_.pore_water->flow(model_.water, model_.particles, step_length());
   if (motion_.now) show_excess();
-  if (measure) relaxation_.measure(model_.particles, before, accelerations(), step_length());
+  if (!measure) return;
+  const ScaledInertia& inertia = to_rest_.inertia;
+  const std::vector<Vec2>& v = model_.particles.velocity;
+  to_rest_.relaxation.measure(model_.particles, before, accelerations(), step_length(),
+                              inertia.acts() ? std::optional(2 * inertia.kinetic_energy(v)) : std::nullopt);
 }
 
 Kick Simulation::next_kick() const {
@@ -289,11 +304,12 @@ void Simulation::drift() {
   const double then = clock_.then();
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
+  const std::span<const Vec2> a = inertial_accelerations();
   std::int64_t runaways = 0;
 #pragma omp parallel reduction(+ : runaways)
   {
     const auto [first, last] = thread_range(p.size());
-    runaways = move_particles(first, last, kick, step_length(), limit, p, forces_.accelerations);
+    runaways = move_particles(first, last, kick, step_length(), limit, p, a);
     if (wet) model_.pore_water->follow(model_.water, p, first, last);
   }
   watch_.after_step(runaways, model_, then);
@@ -311,7 +327,7 @@ void Simulation::visit(StateArchive& state) {
   for (Footing& footing : surface_.footings) footing.visit(state);
   for (Sheet& sheet : surface_.sheets) sheet.visit(state);
   good_.visit(state, model_.particles);
-  relaxation_.visit(state, "relaxation");
+  to_rest_.relaxation.visit(state, "relaxation");
   dynamics_->visit(state);
   model_.pore_water->visit(state);
   if (flow_.coupled) flow_.coupled->visit(state);
@@ -319,6 +335,7 @@ void Simulation::visit(StateArchive& state) {
   if (scene_.water.flows_over_time()) visit_motion(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
+  to_rest_.inertia = ScaledInertia(scene_, model_);  // masses may be those of another run
   forces_.valid = false;
   if (prepared) flow_.coupled && !motion_.now ? take_accelerations_at_rest() : void(accelerations());
   counts = counts_then;
@@ -358,7 +375,7 @@ Simulation::Energy Simulation::energy() {
   const std::vector<Vec2> v = velocities();
   const DynamicWater* water = water_in_motion();
   const double of_excess = water != nullptr ? water->energy() - water->shown_energy() : 0;
-  return {.kinetic = kinetic_energy(model_.particles, v),
+  return {.kinetic = inertia().acts() ? inertia().kinetic_energy(v) : kinetic_energy(model_.particles, v),
           .elastic = elastic_energy(model_),
           .gravity = gravity_energy(model_) + load_energy(surface_.loads, model_.particles, time()),
           .water = water_energy(model_) + of_excess};

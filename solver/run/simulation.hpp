@@ -16,6 +16,7 @@
 #include "solver/run/monitor/breakdown_watch.hpp"
 #include "solver/run/probe.hpp"
 #include "solver/run/relaxation.hpp"
+#include "solver/run/scaled_inertia.hpp"
 #include "solver/run/settling.hpp"
 #include "solver/run/surface_forces.hpp"
 #include "solver/sph/dynamics.hpp"
@@ -59,7 +60,9 @@ class Simulation {
   double step_length() const { return clock_.step_length(); }  ///< of the next [s]
   /// Steps so far in which the soil moved with its inertia.
   std::int64_t moves() const { return follows_flow() ? clock_.moves : clock_.step; }
-  double courant() const { return clock_.courant; }  ///< the case's, or less where disorder requires it
+  double courant() const {
+    return clock_.courant;
+  }  ///< the case's, or less where single particles require it
   const Case& scene() const { return scene_; }
   const Model& model() const { return model_; }
   const std::vector<Probe>& probes() const { return probes_; }
@@ -126,10 +129,12 @@ class Simulation {
   /// restored into goes on to the same bits. Throws StateError.
   void visit(StateArchive& state);
   double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
+  const ScaledInertia& inertia() const { return to_rest_.inertia; }
 
  private:
   Kick next_kick() const;
   void drift();
+  std::span<const Vec2> inertial_accelerations();
   void couple();
   void time_by_flow();
   bool follow_flow();
@@ -180,6 +185,13 @@ class Simulation {
     bool valid = false;
   };
 
+  /// Unused unless the case's damping is adaptive.
+  struct ToRest {
+    Relaxation relaxation;
+    ScaledInertia inertia;
+    std::vector<Vec2> accelerations;  ///< by that [m/s2]
+  };
+
   Case scene_;
   Model model_;
   std::unique_ptr<Dynamics> dynamics_;
@@ -189,7 +201,7 @@ class Simulation {
   std::vector<Probe> probes_;
   Clock clock_;
   Forces forces_;
-  Relaxation relaxation_;  ///< unused unless the case's damping is adaptive
+  ToRest to_rest_;
   BreakdownWatch watch_;
   GoodStates good_;
 };

@@ -92,6 +92,8 @@ IN_THE_CASE = [
     ("a spacing that no computer can hold", "spacing = 0.5", "spacing = 1e-9"),
     ("an end that no run reaches", "end = 0.1", "end = 1e9\ncourant = 1e-6"),
     ("finite elements for what is not linear", "[[boundary]]", "no_tension = true\n[check]\nfinite_elements = true\n[[boundary]]"),
+    ("inertia beyond its mass for soil whose way to rest matters", "[time]",
+     '[loading]\ndamping = "adaptive"\ndamping_until = 0.05\nscaled_inertia = true\n[time]'),
     ("a law without its strength", "[[boundary]]", 'law = "mohr_coulomb"\ncohesion = 5e3\n[[boundary]]'),
     ("strength that the law has not", "[[boundary]]", 'cohesion = 5e3\n[[boundary]]'),
     ("Cam-clay with a swelling line as steep as the virgin one", "[[boundary]]",

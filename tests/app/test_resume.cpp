@@ -204,7 +204,7 @@ TEST_CASE(
                        "--set particles.arrangement=disordered --set particles.disorder=0.4")
               .status == 0);
   CHECK_THAT(text_of(place.folder() / "first/case.toml"),
-             Contains("# The stiffest of the disordered particles allow a Courant number of 0."));
+             Contains("# The stiffest of the particles allow a Courant number of 0."));
   CHECK_THAT(text_of(place.folder() / "first/summary.json"),
              Contains("\"courant\": 0.") && !Contains("\"courant\": 0.4,"));
   REQUIRE(place.porosph("run first/case.toml --quiet --out second").status == 0);

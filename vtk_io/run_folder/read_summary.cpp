@@ -100,6 +100,12 @@ Summary::EnergyBudget energy_from(const JsonObject& e) {
           .unaccounted = e.number("unaccounted")};
 }
 
+std::map<std::string, double> numbers_of(const JsonObject& json) {
+  std::map<std::string, double> numbers;
+  for (const auto& name : json.keys()) numbers[name] = json.number(name);
+  return numbers;
+}
+
 Summary::Zigzag zigzag_from(const JsonObject& json) {
   return {json.number("rms"), json.number("quantile_99"), json.number("largest"), json.number("x"),
           json.number("y")};
@@ -109,8 +115,7 @@ Summary::Seepage seepage_from(const JsonObject& json) {
   Summary::Seepage seepage{json.numbers("through_faces"), json.number("imbalance"),
                            json.integer<int>("newton_steps"), json.integer<int>("krylov_iterations")};
   if (!json.has("sections")) return seepage;
-  const JsonObject sections = json.object("sections");
-  for (const auto& name : sections.keys()) seepage.sections[name] = sections.number(name);
+  seepage.sections = numbers_of(json.object("sections"));
   return seepage;
 }
 
@@ -148,6 +153,7 @@ Summary summary_from(const JsonObject& json) {
   summary.stepping_seconds = json.number("stepping_seconds");
   summary.particle_steps_per_second = json.number("particle_steps_per_second");
   summary.peak_memory_bytes = json.integer<std::int64_t>("peak_memory_bytes");
+  if (json.has("scaled_inertia")) summary.scaled_inertia = numbers_of(json.object("scaled_inertia"));
   summary.formulation = json.text("formulation");
   summary.kernel_correction = json.truth("kernel_correction");
   summary.unbalanced_force_ratio = json.number("unbalanced_force_ratio");

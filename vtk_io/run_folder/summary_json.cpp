@@ -163,6 +163,7 @@ Json to_json(const Summary& summary) {
   put(json, "stepping_seconds", summary.stepping_seconds);
   put(json, "particle_steps_per_second", summary.particle_steps_per_second);
   json["peak_memory_bytes"] = summary.peak_memory_bytes;
+  for (const auto& [soil, inertia] : summary.scaled_inertia) put(json["scaled_inertia"], soil, inertia);
   json["formulation"] = summary.formulation;
   json["kernel_correction"] = summary.kernel_correction;
   put(json, "unbalanced_force_ratio", summary.unbalanced_force_ratio);

@@ -32,6 +32,7 @@ Summary example() {
   summary.stepping_seconds = 11.25;
   summary.particle_steps_per_second = 1e7;
   summary.peak_memory_bytes = 1LL << 40;
+  summary.scaled_inertia = {{"gravel", 7.5}};
   summary.unbalanced_force_ratio = 1e-5;
   summary.energy_growth = -0.25;
   summary.probes["A"] = {7.5, 5.0, {{"EffectiveStress_YY", -5e4}, {"PorePressure", -9.81e4}}};
@@ -59,7 +60,7 @@ TEST_CASE("a summary has the keys that other programs rely on") {
     "title": "Böschung", "status": "equilibrium", "message": "\"quoted\" and\nbroken",
     "particles": 3750, "steps": 123456789012, "time": 0.1, "time_step": 0.3333333333333333, "threads": 4,
     "wall_seconds": 12.5, "stepping_seconds": 11.25, "particle_steps_per_second": 1e7,
-    "peak_memory_bytes": 1099511627776, "formulation": "proposed", "kernel_correction": false,
+    "peak_memory_bytes": 1099511627776, "scaled_inertia": {"gravel": 7.5}, "formulation": "proposed", "kernel_correction": false,
     "unbalanced_force_ratio": 1e-5, "energy_growth": -0.25,
     "probes": {"A": {"position": [7.5, 5.0], "values": {"EffectiveStress_YY": -5e4, "PorePressure": -9.81e4}}},
     "errors": {"EffectiveStress_YY": {"relative_l2": 0.01, "max_abs": 123.0}},

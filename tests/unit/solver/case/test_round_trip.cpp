@@ -48,7 +48,7 @@ Case unusual_case() {
   c.water.stretches = {{-never, 1, 2}, {1, 3.3, 1.1}, {5, never, -0.7}};
   c.boundaries = {{BoundaryKind::roller, {0, 0}, {0, 5}}, {BoundaryKind::fixed, {8, 0}, {0, 0}}};
   c.formulation = {Motion::consistent, false, 0.3, 0.2, 0.1, 1e-7, 0.011, 0.07, 0.0123, true};
-  c.loading = {9.8065, true, true, 0.7, 0.001, false, 1.0 / 7};
+  c.loading = {9.8065, true, true, 0.7, 0.001, false, false, true, 1.0 / 7};
   c.time = {1.0 / 3, 0.9};
   c.stop = {1e-5, false};
   c.check = {.finite_elements = false, .finite_elements_auto = false};
@@ -157,6 +157,23 @@ TEST_CASE("what is not given has its default, and stays so when written") {
   CHECK(c.reference == Reference::none);
   CHECK(same(parse_case(write_case(c), "written"), c));
   CHECK_FALSE(parse_case(write_case(c), "written").water.present());
+}
+
+TEST_CASE("whether inertia is scaled is a truth or auto, where damping is adaptive") {
+  const std::string table = small_case + "[loading]\ndamping = 'adaptive'\n";
+  CHECK(parse_case(table, "box.toml").loading.scaled_inertia_auto);
+  for (const bool wanted : {true, false}) {
+    const Case scene =
+        parse_case(table + "scaled_inertia = " + (wanted ? "true\n" : "false\n"), "box.toml");
+    CHECK_FALSE(scene.loading.scaled_inertia_auto);
+    CHECK(scene.loading.scaled_inertia == wanted);
+    CHECK(same(parse_case(write_case(scene), "written"), scene));
+  }
+  CHECK_THROWS_WITH(parse_case(small_case + "[loading]\nscaled_inertia = true\n", "box.toml"),
+                    Catch::Matchers::Contains("damping = \"adaptive\""));
+  CHECK_THROWS_WITH(parse_case(table + "damping_until = 1\nscaled_inertia = true\n", "box.toml"),
+                    Catch::Matchers::Contains("key 'loading.scaled_inertia' = true: is not possible: it is for "
+                                              "loading.damping = \"adaptive\" until the end"));
 }
 
 TEST_CASE("whether finite elements are used is a truth or auto") {
