@@ -87,6 +87,7 @@ ScaledInertia::ScaledInertia(const Case& scene, const Model& model) {
   if (std::ranges::all_of(of_soil, [](double s) { return s == 1; })) return;
   mass_ = model.particles.mass, place_ = model.particles.start;
   for (const std::int32_t soil : model.particles.soil) inertia_.push_back(of_soil[soil]);
+  before_.assign(mass_.size(), Vec2::Zero());
   Finder(model, *this).find();
 }
 
@@ -122,6 +123,23 @@ void ScaledInertia::scale(std::span<Vec2> accelerations) const {
     for (const std::int32_t a : body.particles)
       accelerations[a] += more * (rigid[k].centre + rigid[k].turn * arm(body, a));
   }
+}
+
+std::span<const Vec2> ScaledInertia::take_step(std::span<const Vec2> by_mass) {
+  constexpr double damping = 0.1;  // c dt = 0.1 (omega dt)^2; docs/theory.md says what it does
+  next_.resize(by_mass.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < by_mass.size(); ++a) {
+    const Vec2 now = by_mass[a];
+    next_[a] = inertia_[a] > 1 ? Vec2(now + damping * (now - before_[a])) : now;
+    before_[a] = now;
+  }
+  scale(next_);
+  return next_;
+}
+
+void ScaledInertia::visit(StateArchive& state) {
+  if (acts()) state.array("accelerations_before", before_);
 }
 
 double ScaledInertia::kinetic_energy(std::span<const Vec2> velocities) const {

@@ -8,6 +8,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/model/model.hpp"
+#include "solver/particles/state.hpp"
 
 namespace porosph {
 
@@ -24,7 +25,9 @@ namespace porosph {
 ///
 ///   m s - sum over bodies (s_body - s_around) m R.
 ///
-/// Forces, and so the state of rest, are those of the true masses.
+/// Forces, and so the state of rest, are those of the true masses. The zero-energy control does not grow with
+/// the inertia, but holds what the stress behind walls would make grow in stiff soil. So stiff soil is damped
+/// in proportion to its stiffness: K v is what a step changes of its accelerations.
 class ScaledInertia {
  public:
   ScaledInertia() = default;
@@ -35,6 +38,11 @@ class ScaledInertia {
   /// Turns accelerations of the true masses into those of the scaled inertia, particle by particle [m/s2].
   /// Does nothing where it does not act.
   void scale(std::span<Vec2> accelerations) const;
+  /// Those that the next step takes, from those of the true masses at its start, once per step: scaled, and
+  /// damped in stiff soil. They are valid until the next call.
+  std::span<const Vec2> take_step(std::span<const Vec2> by_mass);
+  /// Saves or restores what it keeps from step to step.
+  void visit(StateArchive& state);
   /// v . (inertia) v / 2 of the particles' velocities [J/m]. Where it acts only.
   double kinetic_energy(std::span<const Vec2> velocities) const;
   std::size_t bodies() const { return bodies_.size(); }  ///< that may move as a whole
@@ -61,6 +69,7 @@ class ScaledInertia {
   std::vector<double> mass_, inertia_;  ///< of each particle: m [kg/m], and s
   std::vector<Vec2> place_;             ///< as drawn [m]
   std::vector<Body> bodies_;
+  std::vector<Vec2> before_, next_;  ///< accelerations: by mass, of the last step; of the next step [m/s2]
 };
 
 }  // namespace porosph

@@ -227,15 +227,6 @@ std::span<const Vec2> Simulation::accelerations() {
   return forces_.accelerations;
 }
 
-/// Those of the scaled inertia, where it acts.
-std::span<const Vec2> Simulation::inertial_accelerations() {
-  const auto of_mass = accelerations();
-  if (!to_rest_.inertia.acts()) return of_mass;
-  to_rest_.accelerations.assign(of_mass.begin(), of_mass.end());
-  to_rest_.inertia.scale(to_rest_.accelerations);
-  return to_rest_.accelerations;
-}
-
 /// Where pressure moves with the soil, p_w is that of the water that stands meanwhile.
 void Simulation::sum_forces() {
   std::vector<Vec2>& a = forces_.accelerations;
@@ -256,7 +247,9 @@ void Simulation::hold_soil(std::span<Vec2> accelerations) {
 std::vector<Vec2> Simulation::velocities() {
   std::vector<Vec2> v = model_.particles.velocity;
   if (moves() == 0 || rests_in_flow()) return v;
-  const auto a = inertial_accelerations();
+  const auto by_mass = accelerations();
+  std::vector<Vec2> a(by_mass.begin(), by_mass.end());
+  inertia().scale(a);
   const Kick kick = half_kick(damping(), step_length());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = kick(v[i], a[i]);
   return v;
@@ -304,7 +297,8 @@ void Simulation::drift() {
   const double then = clock_.then();
   model_.water.set_time(then);
   const double limit = model_.wave_speed * model_.wave_speed;
-  const std::span<const Vec2> a = inertial_accelerations();
+  const std::span<const Vec2> a =
+      inertia().acts() ? to_rest_.inertia.take_step(forces_.accelerations) : forces_.accelerations;
   std::int64_t runaways = 0;
 #pragma omp parallel reduction(+ : runaways)
   {
@@ -324,6 +318,8 @@ void Simulation::visit(StateArchive& state) {
   state.value("refreshes", counts_then.refreshes);
   state.value("closures", counts_then.closures);
   visit_particles(state, model_.particles);
+  if (state.restoring()) to_rest_.inertia = ScaledInertia(scene_, model_);  // masses may be another run's
+  to_rest_.inertia.visit(state);
   for (Footing& footing : surface_.footings) footing.visit(state);
   for (Sheet& sheet : surface_.sheets) sheet.visit(state);
   good_.visit(state, model_.particles);
@@ -335,7 +331,6 @@ void Simulation::visit(StateArchive& state) {
   if (scene_.water.flows_over_time()) visit_motion(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
-  to_rest_.inertia = ScaledInertia(scene_, model_);  // masses may be those of another run
   forces_.valid = false;
   if (prepared) flow_.coupled && !motion_.now ? take_accelerations_at_rest() : void(accelerations());
   counts = counts_then;

@@ -134,7 +134,6 @@ class Simulation {
  private:
   Kick next_kick() const;
   void drift();
-  std::span<const Vec2> inertial_accelerations();
   void couple();
   void time_by_flow();
   bool follow_flow();
@@ -189,7 +188,6 @@ class Simulation {
   struct ToRest {
     Relaxation relaxation;
     ScaledInertia inertia;
-    std::vector<Vec2> accelerations;  ///< by that [m/s2]
   };
 
   Case scene_;

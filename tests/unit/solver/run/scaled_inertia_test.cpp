@@ -90,7 +90,7 @@ TEST_CASE("inertia is scaled where nothing but the state of rest is asked for", 
                                   [](Case& c) { c.footings.push_back({}); },
                                   [](Case& c) { c.sheets.push_back({}); },
                                   [](Case& c) {
-                                    c.loads.push_back({.over_time = {{0, 0}, {1, 1}}});
+                                    c.loads.emplace_back().over_time = {{0, 0}, {1, 1}};
                                   },
                                   [](Case& c) { c.boundaries[1].kind = BoundaryKind::friction; },
                                   [](Case& c) {
