@@ -251,14 +251,11 @@ void declare(Fields& f, LoadingCase& c) {
            c.damping_until, above(0, longest));
   f.flag_or(
       Key("scaled_inertia", "",
-          "Whether stiff soils get inertia beyond their mass on the way to rest, so that no soil has faster "
-          "waves "
-          "than the softest: time steps are then longer, and time has no meaning. Weight and the state of "
-          "rest stay "
-          "the same. `\"auto\"`: where only the state of rest of elastic soil is asked for and soils differ "
-          "enough "
-          "(docs/theory.md); `true`: an error where more is asked for; `false`: the soil moves by its mass.")
-          .only_if(c.adaptive_damping, "damping = \"adaptive\""),
+          "Whether stiff soils get inertia beyond their mass on the way to rest, so that none has "
+          "faster waves than the softest: time steps are longer then, and time has no meaning. `\"auto\"`: "
+          "where only the "
+          "state of rest of elastic soil is asked for and soils differ enough (docs/theory.md); `true`: an "
+          "error where more is asked for; `false`: soil moves by its mass."),
       c.scaled_inertia, "auto", c.scaled_inertia_auto);
   f.number(
       Key("horizontal", "",

@@ -59,6 +59,7 @@ std::vector<double> inertia_over_mass(const Case& scene) {
   std::vector<double> squares;
   for (const SoilCase& soil : scene.soils)
     squares.push_back(modulus_over_density(soil, scene.loading.gravity));
+  if (squares.empty()) return inertia;
   const auto [slowest, fastest] = std::ranges::minmax(squares);
   const double least = scene.loading.scaled_inertia_auto ? enough : 1;
   if (!(slowest > 0) || fastest <= least * slowest || !inertia_obstacle(scene).empty()) return inertia;
