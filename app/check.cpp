@@ -125,6 +125,7 @@ std::string strength_text(const SoilCase& soil, double spacing) {
           soil.cam_clay.void_ratio);
     case LawKind::drucker_prager:
     case LawKind::mohr_coulomb:
+    case LawKind::byrne:
       break;
   }
   return fmt::format(

@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<std::string> words, overrides, pressures, strains, stresses;
   std::string test, k0, place, out;
-  int steps = 1000;
+  int steps = 1000, cycles = 0;
   bool quiet = false;
 
   const std::string& case_file() const { return words.front(); }
@@ -61,6 +61,8 @@ std::optional<Options> read_options(const Arguments& arguments) {
       "unload to a smaller one (default: 0.1)")(
       "stress", po::value(&o.stresses)->value_name("PA"),
       "axial effective stress to reach in place of a strain, in isotropic and oedometer; may be given again")(
+      "cycles", po::value(&o.cycles)->value_name("N"),
+      "in simple-shear: goes to the one --strain and to its opposite so many times")(
       "steps", po::value(&o.steps)->value_name("N")->default_value(1000), "steps to each strain or stress")(
       "at", po::value(&o.place)->value_name("X,Y"),
       "where the specimens are from [m], for strength that grows with depth (default: the soil's highest "
@@ -76,11 +78,14 @@ std::optional<Options> read_options(const Arguments& arguments) {
           arguments, options, positional, "element CASE.toml [SOIL...] [options]",
           "  porosph element safety/griffiths_lane_1 --pressure 5e4 --pressure 1e5 --pressure 2e5\n"
           "  porosph element safety/griffiths_lane_1 slope --test oedometer --stress 4e5 --stress 1e5\n"
-          "  porosph element safety/undrained_slope --test triaxial-undrained --strain 0.05 --out clay.pdf\n",
+          "  porosph element safety/undrained_slope --test triaxial-undrained --strain 0.05 --out clay.pdf\n"
+          "  porosph element failure/liquefaction --test simple-shear-undrained --strain 1e-3 --cycles 10\n",
           values))
     return std::nullopt;
   if (o.steps < 1 || o.steps > 1'000'000)
     throw UsageError(fmt::format("--steps = {}: must be from 1 to 1000000", o.steps));
+  if (values.count("cycles") > 0 && (o.cycles < 1 || o.cycles > 10'000))
+    throw UsageError(fmt::format("--cycles = {}: must be from 1 to 10000", o.cycles));
   o.quiet = values.count("quiet") > 0;
   return o;
 }
@@ -122,6 +127,17 @@ std::vector<double> numbers(const std::string& option, const std::vector<std::st
   return list;
 }
 
+/// Strains to go to, one after the other.
+std::vector<double> strains_of(const Options& o, ElementTest test) {
+  const std::vector<double> strains = numbers("--strain", o.strains, -2, 2, 0.1);
+  if (o.cycles == 0) return strains;
+  if (!is_shear(test)) throw UsageError("--cycles: only the simple shear tests go to and fro");
+  if (strains.size() > 1) throw UsageError("--cycles: goes to and fro between one --strain and its opposite");
+  std::vector<double> cycles;
+  for (int i = 0; i < o.cycles; ++i) cycles.insert(cycles.end(), {strains[0], -strains[0]});
+  return cycles;
+}
+
 Vec2 place_of(const SoilCase& soil, const Options& o) {
   if (o.place.empty())
     return *std::ranges::max_element(soil.polygon, {}, [](const Point& p) { return p.y(); });
@@ -143,8 +159,8 @@ std::vector<ElementSetup> read_setups(const Options& o) {
   if (!o.stresses.empty() && !one_way)
     throw UsageError("--stress: only the isotropic and the oedometer test go to a stress; give --strain");
   setup.by_stress = !o.stresses.empty();
-  setup.targets = setup.by_stress ? numbers("--stress", o.stresses, 0, largest, 0)
-                                  : numbers("--strain", o.strains, -2, 2, 0.1);
+  setup.targets =
+      setup.by_stress ? numbers("--stress", o.stresses, 0, largest, 0) : strains_of(o, setup.test);
   setup.steps = o.steps;
   std::vector<ElementSetup> setups;
   for (const double pressure : numbers("--pressure", o.pressures, 0, largest, 1e5)) {

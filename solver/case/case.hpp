@@ -42,7 +42,12 @@ enum class LawKind {
   mohr_coulomb,    ///< friction and cohesion
   tresca,          ///< undrained clay: a shear strength that does not depend on pressure
   cam_clay,        ///< modified Cam-clay: hardens with compression; elastic by pressure
+  byrne,           ///< friction and cohesion; cycles of shear compact it
 };
+/// Laws with cohesion and a friction angle.
+constexpr bool has_friction(LawKind law) {
+  return law == LawKind::drucker_prager || law == LawKind::mohr_coulomb || law == LawKind::byrne;
+}
 enum class SofteningKind { none, exponential, linear };
 
 /// Strength of a soil whose law yields, of use as its law says.
@@ -74,6 +79,12 @@ struct CamClayCase {
   double attraction = 1e3;       ///< what p' and p_c count from, below zero [Pa]
 };
 
+/// Of a soil with Byrne's law.
+struct CompactionCase {
+  double c1 = 0, c2 = 0;  ///< compaction of a cycle is c1 gamma exp(-c2 e / gamma), e what there is of it [-]
+  double threshold = 0;   ///< amplitude of shear strain that cycles have to exceed [-]
+};
+
 /// One soil: where it is and what it is.
 struct SoilCase {
   std::string name;
@@ -92,6 +103,7 @@ struct SoilCase {
   LawKind law = LawKind::elastic;
   StrengthCase strength = {};
   CamClayCase cam_clay = {};
+  CompactionCase compaction = {};
   Point permeability = Point::Zero();  ///< k along x and y, saturated; 0 where water does not flow [m/s]
   PermeabilityLaw permeability_law = PermeabilityLaw::constant;
   double porosity = -1;  ///< n; negative: none given, 0.4 [-]

@@ -8,8 +8,8 @@ namespace porosph {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 5> laws{"elastic", "drucker_prager", "mohr_coulomb", "tresca",
-                                    "modified_cam_clay"};
+constexpr std::array<Names, 6> laws{"elastic", "drucker_prager",    "mohr_coulomb",
+                                    "tresca",  "modified_cam_clay", "byrne"};
 constexpr std::array<Names, 3> softenings{"none", "exponential", "linear"};
 constexpr std::array<Names, 2> permeability_laws{"constant", "kozeny_carman"};
 constexpr std::array<Names, 4> retention_models{"saturated", "gardner", "van_genuchten", "table"};
@@ -24,7 +24,7 @@ Key required_if(bool used, std::string_view name, std::string_view unit, std::st
 }
 
 void declare_friction(Fields& f, bool used, StrengthCase& c) {
-  const std::string condition = "law = \"drucker_prager\" or \"mohr_coulomb\"";
+  const std::string condition = "law = \"drucker_prager\", \"mohr_coulomb\" or \"byrne\"";
   f.number(required_if(used, "cohesion", "Pa", "Cohesion c, of effective stress.", condition), c.cohesion,
            between(0, stiffest));
   f.number(
@@ -104,7 +104,7 @@ void declare_softening(Fields& f, bool frictional, bool undrained, StrengthCase&
 
 /// Of a soil with this law.
 void declare_strength(Fields& f, LawKind law, StrengthCase& c) {
-  const bool frictional = law == LawKind::drucker_prager || law == LawKind::mohr_coulomb;
+  const bool frictional = has_friction(law);
   const bool undrained = law == LawKind::tresca;
   declare_friction(f, frictional, c);
   declare_undrained(f, undrained, c);
@@ -150,6 +150,23 @@ void declare_cam_clay(Fields& f, bool used, CamClayCase& c) {
           "that matters.")
           .only_if(used, condition),
       c.attraction, above(0, stiffest));
+}
+
+void declare_compaction(Fields& f, bool used, CompactionCase& c) {
+  const std::string condition = "law = \"byrne\"";
+  f.number(required_if(used, "compaction_c1", "",
+                       "C1: volume strain over shear strain by which the first cycle compacts the soil.",
+                       condition),
+           c.c1, above(0, 100));
+  f.number(required_if(used, "compaction_c2", "",
+                       "C2: a cycle of the shear strain gamma compacts soil less the more it is compacted "
+                       "already, by exp(-C2 e_vd / gamma).",
+                       condition),
+           c.c2, between(0, 1e4));
+  f.number(
+      required_if(used, "compaction_threshold", "",
+                  "Shear strain that the amplitude of a cycle must exceed to compact the soil.", condition),
+      c.threshold, above(0, 1));
 }
 
 void declare_pores(Fields& f, SoilCase& c) {
@@ -218,7 +235,9 @@ void declare(Fields& f, SoilCase& c) {
           "`drucker_prager`: friction and cohesion by a cone that in plane strain has Mohr and Coulomb's "
           "strength; `mohr_coulomb`: theirs itself; `tresca`: undrained clay, whose shear strength does not "
           "depend on pressure; `modified_cam_clay`: clay that hardens as it is compressed, with a stiffness "
-          "in proportion to its pressure."),
+          "in proportion to its pressure; `byrne`: sand as `mohr_coulomb` has it, which cycles of shear "
+          "compact, "
+          "so that its water comes under pressure (liquefaction)."),
       c.law, laws);
   f.flag(Key("no_tension", "",
              "A soil without cohesion: no effective stress where its mean would be tensile, and none until "
@@ -230,6 +249,7 @@ void declare(Fields& f, SoilCase& c) {
          c.no_tension);
   declare_strength(f, c.law, c.strength);
   declare_cam_clay(f, c.law == LawKind::cam_clay, c.cam_clay);
+  declare_compaction(f, c.law == LawKind::byrne, c.compaction);
   declare_pores(f, c);
   declare_motion(f, c);
   f.table(Key("retention", "", "How permeability and saturation fall above the water table."), c.retention,

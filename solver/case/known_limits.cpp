@@ -124,7 +124,7 @@ void check_dilation(const Case& c, std::vector<std::string>& out) {
   const bool damped = c.loading.adaptive_damping || c.loading.damping > 0;
   if (c.formulation.motion != Motion::consistent || damped || !c.loading.gravity_applied) return;
   for (const SoilCase& soil : c.soils) {
-    const bool may = soil.law == LawKind::drucker_prager || soil.law == LawKind::mohr_coulomb;
+    const bool may = has_friction(soil.law);
     const StrengthCase& s = soil.strength;
     if (!may || s.dilation_angle == 0 || s.softening != SofteningKind::none || s.dilation_limit <= most)
       continue;

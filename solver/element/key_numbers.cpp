@@ -70,6 +70,9 @@ void add_strength(Numbers& n, const ElementPath& path) {
     n.add("pore pressure at the peak", "Pa", s.pore_pressure);
   else
     n.add("volume compression at the end", "-", path.states.back().volume_compression());
+  if (path.setup.test == ElementTest::simple_shear_undrained)
+    n.add("pore pressure at the end over axial stress at the start", "-",
+          path.states.back().pore_pressure / path.setup.axial_stress);
 }
 
 }  // namespace

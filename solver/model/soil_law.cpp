@@ -59,6 +59,11 @@ CamClay cam_clay(const SoilCase& soil, const Elasticity& elastic, double reducti
   return law;
 }
 
+MohrCoulomb mohr_coulomb(const SoilCase& soil, const Elasticity& elastic, double spacing, double reduction) {
+  return frictional(soil.strength, spacing, reduction,
+                    [&](auto... strength) { return MohrCoulomb::from_angles(elastic, strength...); });
+}
+
 }  // namespace
 
 AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
@@ -69,8 +74,10 @@ AnyLaw soil_law(const SoilCase& soil, double spacing, double reduction) {
         return DruckerPrager::from_mohr_coulomb(elastic, strength...);
       });
     case LawKind::mohr_coulomb:
-      return frictional(soil.strength, spacing, reduction,
-                        [&](auto... strength) { return MohrCoulomb::from_angles(elastic, strength...); });
+      return mohr_coulomb(soil, elastic, spacing, reduction);
+    case LawKind::byrne:
+      return Byrne{mohr_coulomb(soil, elastic, spacing, reduction), soil.compaction.c1, soil.compaction.c2,
+                   soil.compaction.threshold};
     case LawKind::tresca:
       return tresca(soil, elastic, spacing, reduction);
     case LawKind::cam_clay:

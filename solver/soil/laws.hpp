@@ -4,6 +4,7 @@
 #include <memory>
 #include <variant>
 
+#include "solver/soil/byrne.hpp"
 #include "solver/soil/cam_clay.hpp"
 #include "solver/soil/drucker_prager.hpp"
 #include "solver/soil/external_law.hpp"
@@ -21,7 +22,7 @@ struct LawList {
 };
 
 /// A law's place in this list is its number in the kernels; one of a program's own comes last.
-using Laws = LawList<LinearElastic, DruckerPrager, MohrCoulomb, Tresca, NoTension, CamClay>;
+using Laws = LawList<LinearElastic, DruckerPrager, MohrCoulomb, Tresca, NoTension, CamClay, Byrne>;
 using AnyLaw = Laws::Any;
 
 }  // namespace porosph

@@ -28,6 +28,7 @@ std::optional<SoilStrength> strength_of(const SoilCase& soil) {
     }
     case LawKind::drucker_prager:
     case LawKind::mohr_coulomb:
+    case LawKind::byrne:
       return SoilStrength{s.cohesion, std::tan(s.friction_angle * std::numbers::pi / 180)};
   }
   return std::nullopt;

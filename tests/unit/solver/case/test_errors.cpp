@@ -63,10 +63,10 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:10:14: key 'soil[0].no_tension' = 1: must be true or false"},
       {"poissons_ratio", "law = 'mohr-coulomb'\npoissons_ratio",
        "box.toml:10:7: key 'soil[0].law' = \"mohr-coulomb\": must be one of \"elastic\", \"drucker_prager\", "
-       "\"mohr_coulomb\", \"tresca\", \"modified_cam_clay\"; did you mean 'mohr_coulomb'?"},
+       "\"mohr_coulomb\", \"tresca\", \"modified_cam_clay\", \"byrne\"; did you mean 'mohr_coulomb'?"},
       {"poissons_ratio", "cohesion = 1e3\npoissons_ratio",
-       "box.toml:10:12: key 'soil[0].cohesion' = 1000: is used only with law = \"drucker_prager\" or "
-       "\"mohr_coulomb\""},
+       "box.toml:10:12: key 'soil[0].cohesion' = 1000: is used only with law = \"drucker_prager\", "
+       "\"mohr_coulomb\" or \"byrne\""},
       {"poissons_ratio", "law = 'tresca'\nundrained_strength = 0\npoissons_ratio",
        "box.toml:11:22: key 'soil[0].undrained_strength' = 0: must be > 0 and <= 1e+15 Pa"},
       {"poissons_ratio",
@@ -74,8 +74,8 @@ TEST_CASE("values that are wrong by themselves") {
        "box.toml:13:18: key 'soil[0].dilation_angle' = 31: must be <= friction_angle = 30 degrees"},
       {"poissons_ratio",
        "law = 'mohr_coulomb'\ncohesion = 0\nfriction_angle = 30\ndilation_limit = 0.05\npoissons_ratio",
-       "box.toml:13:18: key 'soil[0].dilation_limit' = 0.05: is used only with law = \"drucker_prager\" or "
-       "\"mohr_coulomb\" and dilation_angle > 0"},
+       "box.toml:13:18: key 'soil[0].dilation_limit' = 0.05: is used only with law = \"drucker_prager\", "
+       "\"mohr_coulomb\" or \"byrne\" and dilation_angle > 0"},
       {"poissons_ratio",
        "law = 'drucker_prager'\ncohesion = 1\nfriction_angle = 30\nresidual_cohesion = 0.5\npoissons_ratio",
        "box.toml:13:21: key 'soil[0].residual_cohesion' = 0.5: is used only with softening = \"exponential\" "
@@ -91,7 +91,7 @@ TEST_CASE("values that are wrong by themselves") {
        "PrincipalStress, MeanStress, DeviatoricStress, VonMisesStress, Strain, ExcessStress, Yielding, "
        "MobilisedFriction, Head, PressureHead, Saturation, DarcyVelocity, HydraulicGradient, "
        "GradientRatio, PorePressureRatio, PlasticStrain, Opening, Dilation, UndrainedStrength, VoidRatio, "
-       "Preconsolidation; "
+       "Preconsolidation, Compaction, CyclicStrain, TurningStrain, FarthestStrain; "
        "did you mean "
        "'Velocity'?"},
       {"end = 1", "end = 1\n[output]\nfields = ['Mass', 'Mass']",
