@@ -192,6 +192,12 @@ void draw_rollers(Canvas& canvas, const DrawnWall& wall) {
   canvas.line(wall.at(0, offset), wall.at(wall.length, offset), {.colour = outline_grey});
 }
 
+/// A dashed line: the soil goes on.
+void draw_periodic(Canvas& canvas, const DrawnWall& wall) {
+  const std::vector<Pixel> line = {wall.from, wall.to};
+  canvas.line(line, {.colour = outline_grey, .width = 1.6, .dashes = {7, 4}});
+}
+
 void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutline>& soils,
                   const BoundaryCase& boundary) {
   const DrawnWall wall = drawn_wall(plot, soils, boundary);
@@ -200,6 +206,8 @@ void draw_support(Canvas& canvas, const Plot& plot, const std::vector<SoilOutlin
     draw_fixed(canvas, wall);
   else if (boundary.kind == BoundaryKind::friction)
     draw_friction(canvas, wall);
+  else if (boundary.kind == BoundaryKind::periodic)
+    draw_periodic(canvas, wall);
   else
     draw_rollers(canvas, wall);
 }

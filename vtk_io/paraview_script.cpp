@@ -97,8 +97,9 @@ std::string paraview_script(const std::filesystem::path& folder, const std::stri
   for (const ProbeCase& probe : scene.probes)
     run["probes"].push_back({probe.name, probe.position.x(), probe.position.y()});
   for (const BoundaryCase& b : scene.boundaries)
-    run["supports"].push_back(
-        {b.kind == BoundaryKind::roller ? "roller" : "fixed", b.from.x(), b.from.y(), b.to.x(), b.to.y()});
+    if (b.kind != BoundaryKind::periodic)
+      run["supports"].push_back(
+          {b.kind == BoundaryKind::roller ? "roller" : "fixed", b.from.x(), b.from.y(), b.to.x(), b.to.y()});
   constexpr double far = 1e30;  // JSON has no infinity; the script cuts lines at the particles
   for (const Point& step : scene.water.level_over_time)
     run["level_over_time"].push_back({step.x(), step.y()});

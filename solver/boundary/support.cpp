@@ -17,12 +17,21 @@ class Fixed final : public Support {
   bool carries_shear() const override { return true; }
 };
 
+/// The soil goes on behind it as it begins at the other side.
+class Periodic final : public Support {
+ public:
+  Mat2 mirrored_motion(const Vec2&) const override { return Mat2::Identity(); }
+  bool carries_shear() const override { return false; }
+};
+
 }  // namespace
 
 const Support& support_of(BoundaryKind kind) {
   static const Roller roller;
   static const Fixed fixed;
+  static const Periodic periodic;
   if (kind == BoundaryKind::fixed) return fixed;
+  if (kind == BoundaryKind::periodic) return periodic;
   return roller;
 }
 

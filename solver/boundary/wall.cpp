@@ -29,6 +29,7 @@ Vec2 normal_towards(const Wall& wall, std::size_t number, std::span<const Vec2> 
   Wall left = wall, right = wall;
   left.normal = Vec2(-tangent.y(), tangent.x());
   right.normal = -left.normal;
+  left.kind = right.kind = BoundaryKind::fixed;  // in front of itself, also of a periodic one
   // The soil on the other side of a thin plate lies further away.
   const auto nearest = [&](const Wall& w) {
     double least = never;
@@ -63,9 +64,45 @@ bool passed_on_at(const Vec2& end, const Wall& self, std::span<const Wall> later
   });
 }
 
+/// Appends images as append_images() does, which knows what the points are.
+class Imaging {
+ public:
+  Imaging(std::span<const Wall> walls, std::vector<Vec2>& points, std::vector<Image>& images)
+      : walls_(walls), points_(points), images_(images), particles_(points.size() - images.size()) {}
+
+  void append(std::size_t w, double range, double beyond) {
+    const Wall& wall = walls_[w];
+    const double reach = wall.is_periodic() ? range + farthest_beyond(wall) : range;
+    const std::size_t present = points_.size();
+    for (std::size_t i = 0; i < present; ++i) {
+      if (!wall.faces(points_[i], reach, beyond) || (wall.is_periodic() && is_copy(i))) continue;
+      images_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
+      points_.push_back(wall.mirrored(points_[i]));
+    }
+  }
+
+ private:
+  bool is_copy(std::size_t i) const {
+    return i >= particles_ && walls_[images_[i - particles_].wall].is_periodic();
+  }
+  /// How far soil has moved beyond a periodic side: so much more of the other side is seen behind it [m].
+  double farthest_beyond(const Wall& wall) const {
+    double farthest = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (!is_copy(i)) farthest = std::max(farthest, -wall.distance(points_[i]));
+    return farthest;
+  }
+
+  std::span<const Wall> walls_;
+  std::vector<Vec2>& points_;
+  std::vector<Image>& images_;
+  std::size_t particles_;
+};
+
 }  // namespace
 
 bool Wall::faces(const Vec2& p, double range, double beyond) const {
+  if (is_periodic()) return shift.norm() - distance(p) < range;
   const double away = distance(p);
   if (away < on_line * range || away >= range) return false;
   const Vec2 line = to - from;
@@ -88,7 +125,9 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
     if (wall.normal.isZero(0)) wall.normal = normal_towards(wall, i, points, range);
     wall.bears_weight = wall.support().carries_shear() || std::abs(wall.normal.y()) > 1e-9;
   }
-  const auto rank = [](const Wall& w) { return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : 2; };
+  const auto rank = [](const Wall& w) {
+    return w.support().carries_shear() ? 0 : w.bears_weight ? 1 : w.is_periodic() ? 3 : 2;
+  };
   std::stable_sort(walls.begin(), walls.end(),
                    [&](const Wall& a, const Wall& b) { return rank(a) < rank(b); });
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -99,7 +138,17 @@ std::vector<Wall> make_walls(const std::vector<BoundaryCase>& boundaries, std::s
     wall.passed_on_at_from = passed_on_at(wall.from, wall, later);
     wall.passed_on_at_to = passed_on_at(wall.to, wall, later);
   }
+  join_sides(walls);
   return walls;
+}
+
+void join_sides(std::span<Wall> walls) {
+  for (Wall& wall : walls) {
+    const auto other = std::ranges::find_if(walls, [&](const Wall& w) {
+      return wall.is_periodic() && w.is_periodic() && w.normal.dot(wall.normal) < 0;
+    });
+    if (other != walls.end()) wall.shift = -wall.distance(other->from) * wall.normal;
+  }
 }
 
 std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t particles) {
@@ -111,14 +160,8 @@ std::vector<std::int32_t> roots(std::span<const Image> images, std::size_t parti
 
 void append_images(std::span<const Wall> walls, std::size_t first, std::size_t last, double range,
                    std::vector<Vec2>& points, std::vector<Image>& images, double beyond) {
-  for (std::size_t w = first; w < last; ++w) {
-    const std::size_t present = points.size();
-    for (std::size_t i = 0; i < present; ++i) {
-      if (!walls[w].faces(points[i], range, beyond)) continue;
-      images.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
-      points.push_back(walls[w].mirrored(points[i]));
-    }
-  }
+  Imaging imaging(walls, points, images);
+  for (std::size_t w = first; w < last; ++w) imaging.append(w, range, beyond);
 }
 
 }  // namespace porosph

@@ -141,6 +141,7 @@ enum class BoundaryKind {
   roller,    ///< free to slide along the segment, no motion across it (mirrored ghost particles)
   fixed,     ///< no motion at all (virtual particles)
   friction,  ///< as a roller, but the soil slides along it against friction only
+  periodic,  ///< one of two upright sides, behind each of which the soil goes on as it begins at the other
 };
 struct BoundaryCase {
   BoundaryKind kind = BoundaryKind::fixed;
@@ -227,6 +228,18 @@ struct LoadingCase {
   double horizontal = 0;            ///< acceleration to the right over g, beside gravity (pseudo-static) [-]
 };
 
+/// Horizontal acceleration of the base and of all other supports: a sine, or any course over time.
+struct ShakingCase {
+  double amplitude = 0;                       ///< of the sine, to the right first [m/s2]
+  double frequency = 0;                       ///< [Hz]
+  double cycles = never;                      ///< that it lasts
+  double ramp = 0;                            ///< cycles in which it grows, and at its end falls
+  double start = 0;                           ///< when it begins [s]
+  std::vector<Point> acceleration_over_time;  ///< (time, acceleration) in its place, linear between [s, m/s2]
+
+  bool acts() const { return amplitude != 0 || !acceleration_over_time.empty(); }
+};
+
 struct TimeCase {
   double end = 0;        ///< [s]
   double courant = 0.2;  ///< dt = courant * h / c_p, c_p the fastest compression wave [-]
@@ -311,6 +324,7 @@ struct Case {
   std::vector<SheetCase> sheets = {};
   FormulationCase formulation;
   LoadingCase loading;
+  ShakingCase shaking = {};
   TimeCase time;
   StopCase stop;
   CheckCase check;

@@ -10,6 +10,7 @@
 #include "solver/case/check_flow.hpp"
 #include "solver/case/check_loads.hpp"
 #include "solver/case/check_sheets.hpp"
+#include "solver/case/check_sides.hpp"
 #include "solver/case/demand.hpp"
 #include "solver/case/fem_obstacle.hpp"
 #include "solver/case/inertia.hpp"
@@ -260,6 +261,8 @@ std::vector<CaseIssue> check_settings(const Case& c) {
           {at("boundary", i, "kind"),
            fmt::format("\"friction\" does not go with water.mode = \"{}\"", name(c.water.mode))});
   }
+  const Issues of_sides = check_sides_settings(c);
+  issues.insert(issues.end(), of_sides.begin(), of_sides.end());
   const Issues of_flow = check_flow_settings(c);
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   if (!c.check.finite_elements_auto && c.check.finite_elements)
@@ -290,6 +293,8 @@ std::vector<CaseIssue> check_geometry(const Case& c) {
   issues.insert(issues.end(), of_flow.begin(), of_flow.end());
   const Issues of_boundaries = check_boundaries(c);
   issues.insert(issues.end(), of_boundaries.begin(), of_boundaries.end());
+  const Issues of_sides = check_periodic_sides(c);
+  issues.insert(issues.end(), of_sides.begin(), of_sides.end());
   const Issues of_loads = check_loads(c);
   issues.insert(issues.end(), of_loads.begin(), of_loads.end());
   const Issues of_footings = check_footings(c);

@@ -14,7 +14,7 @@ namespace {
 using Names = std::string_view;
 constexpr std::array<Names, 6> arrangements{"automatic",  "lattice", "fitted",
                                             "disordered", "surface", "stretched"};
-constexpr std::array<Names, 3> boundary_kinds{"roller", "fixed", "friction"};
+constexpr std::array<Names, 4> boundary_kinds{"roller", "fixed", "friction", "periodic"};
 constexpr std::array<Names, 3> sheet_ends{"free", "pinned", "fixed"};
 constexpr std::array<Names, 2> frame_formats{"vtp", "vtu"};
 constexpr std::array<Names, 3> compressions{"none", "lz4", "zlib"};
@@ -96,6 +96,11 @@ void declare(Fields& f, Case& c) {
   });
   f.table(Key("formulation", "", "The discrete momentum equation and its artificial terms."), c.formulation);
   f.table(Key("loading", "", "Gravity, initial stress and damping."), c.loading);
+  f.table(
+      Key("shaking", "",
+          "Acceleration of the base and all other supports, to the side: an earthquake. Displacements and "
+          "velocities are relative to the base. See docs/shaking.md."),
+      c.shaking, c.shaking.acts());
   f.table(Key("time", "", "End time and time step."), c.time);
   f.set_defaults([&] {
     c.stop.on_separation =
@@ -150,7 +155,9 @@ void declare(Fields& f, BoundaryCase& c) {
   f.choice(
       Key("kind", "",
           "`roller`: free to slide along it; `fixed`: no motion; `friction`: sliding along it only where the "
-          "shear stress reaches `coefficient` times the normal effective stress.")
+          "shear stress reaches `coefficient` times the normal effective stress; `periodic`: one of the two "
+          "upright sides of level layers, behind each of which soil and water go on as they begin at the "
+          "other (docs/shaking.md).")
           .required(),
       c.kind, boundary_kinds);
   const bool rubs = c.kind == BoundaryKind::friction;
@@ -263,6 +270,42 @@ void declare(Fields& f, LoadingCase& c) {
           "pseudo-static earthquake.")
           .only_if(c.gravity_applied, "gravity_applied = true"),
       c.horizontal, between(-10, 10));
+}
+
+void declare(Fields& f, ShakingCase& c) {
+  f.pairs(
+      Key("acceleration_over_time", "s, m/s2",
+          "Acceleration of the base to the right, [[t, a], ...], in place of a sine: linear between these "
+          "times and constant before and after.")
+          .otherwise("see `amplitude`"),
+      c.acceleration_over_time);
+  const bool any = !c.acceleration_over_time.empty();
+  const std::string condition = "no acceleration_over_time";
+  Key amplitude = Key("amplitude", "m/s2",
+                      "Largest acceleration of a sine, a sin(2 pi f (t - start)); to the right first.")
+                      .only_if(!any, condition)
+                      .otherwise("required");
+  amplitude.is_required = !any;
+  f.number(amplitude, c.amplitude, between(0, 1e6));
+  const bool sine = c.amplitude > 0;
+  Key frequency =
+      Key("frequency", "Hz", "f of the sine.").only_if(sine, "amplitude > 0").otherwise("required");
+  frequency.is_required = sine;
+  f.number(frequency, c.frequency, above(0, 1e6));
+  f.number(Key("cycles", "", "How many cycles of the sine there are.")
+               .only_if(sine, "amplitude > 0")
+               .otherwise("until the run ends"),
+           c.cycles, above(0, 1e9));
+  f.number(
+      Key("ramp", "",
+          "Cycles in which the sine grows linearly from nothing, and in which it falls to nothing at its "
+          "end; at most half of all cycles.")
+          .only_if(sine, "amplitude > 0"),
+      c.ramp, between(0, 1e9));
+  if (sine && c.ramp > c.cycles / 2)
+    f.reject("ramp", fmt::format("must be <= cycles / 2 = {:g}", c.cycles / 2));
+  f.number(Key("start", "s", "When the sine begins.").only_if(sine, "amplitude > 0"), c.start,
+           between(0, longest));
 }
 
 void declare(Fields& f, TimeCase& c) {

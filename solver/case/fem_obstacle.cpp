@@ -25,6 +25,9 @@ std::string fem_obstacle(const Case& scene) {
   for (const BoundaryCase& b : scene.boundaries)
     if (b.kind == BoundaryKind::friction)
       return "soil slides along a wall against friction, which is not linear";
+    else if (b.kind == BoundaryKind::periodic)
+      return "sides are periodic";
+  if (scene.shaking.acts()) return "the base shakes";
   if (!scene.footings.empty()) return "there are footings";
   if (!scene.sheets.empty()) return "there are sheets";
   if (!scene.loading.gravity_applied && scene.loads.empty())

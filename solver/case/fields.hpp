@@ -66,6 +66,7 @@ void declare(Fields&, FootingCase&);
 void declare(Fields&, SheetCase&);
 void declare(Fields&, FormulationCase&);
 void declare(Fields&, LoadingCase&);
+void declare(Fields&, ShakingCase&);
 void declare(Fields&, TimeCase&);
 void declare(Fields&, StopCase&);
 void declare(Fields&, CheckCase&);

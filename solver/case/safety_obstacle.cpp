@@ -17,6 +17,7 @@ std::string safety_obstacle(const Case& scene) {
         name(scene.water.mode));
   if (!scene.loading.gravity_applied)
     return "loading.gravity_applied = false: nothing drives the soil, so it has no factor of safety";
+  if (scene.shaking.acts()) return "the base shakes ([shaking]): only soil at rest has a factor of safety";
   if (std::ranges::count(falling_soils(scene), true) > 0)
     return "a body falls, as no boundary carries it: only soil at rest has a factor of safety";
   if (std::ranges::all_of(scene.soils, [](const SoilCase& soil) { return soil.law == LawKind::elastic; }))

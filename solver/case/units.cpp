@@ -26,7 +26,8 @@ struct NamedUnit {
 };
 
 constexpr std::array<int, 4> none{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, duration{0, 0, 1, 0},
-    angle{0, 0, 0, 1}, force{1, 1, -2, 0}, pressure{-1, 1, -2, 0}, weight{-2, 1, -2, 0};
+    angle{0, 0, 0, 1}, frequency{0, 0, -1, 0}, force{1, 1, -2, 0}, pressure{-1, 1, -2, 0},
+    weight{-2, 1, -2, 0};
 constexpr double degree = boost::math::constants::degree<double>();
 // Foot and pound as they are defined: 0.3048 m, 4.4482216152605 N.
 constexpr double pound = 44482216152605e-13, inch = 0.0254, foot = 0.3048;
@@ -49,6 +50,8 @@ constexpr auto known = std::to_array<NamedUnit>({
     {"h", {duration, 0, 3600}},
     {"d", {duration, 0, 86400}},
     {"yr", {duration, 0, 31557600}},  // 365.25 d
+    {"Hz", {frequency}},
+    {"kHz", {frequency, 3}},
     {"N", {force}},
     {"kN", {force, 3}},
     {"MN", {force, 6}},
@@ -74,10 +77,11 @@ constexpr auto known = std::to_array<NamedUnit>({
 
 // Those that messages and documents offer, by the dimension of the key.
 constexpr auto usual = std::to_array<std::string_view>(
-    {"m",    "km",    "cm",    "mm",  "ft",   "in",    "s",   "ms",   "min",  "h",     "d",       "yr",
-     "Pa",   "kPa",   "MPa",   "GPa", "bar",  "kN/m2", "psi", "psf",  "N/m",  "kN/m",  "N/m3",    "kN/m3",
-     "Pa/m", "kPa/m", "pcf",   "m/s", "cm/s", "m/h",   "m/d", "mm/h", "m/s2", "ft/s2", "degrees", "deg",
-     "rad",  "rad/s", "deg/s", "1/m", "1/cm", "1/ft",  "%",   "N*m",  "kN*m", "MN*m",  "kg/m2",   "t/m2"});
+    {"m",    "km",   "cm",   "mm",    "ft",      "in",    "s",     "ms",    "min",   "h",
+     "d",    "yr",   "Pa",   "kPa",   "MPa",     "GPa",   "bar",   "kN/m2", "psi",   "psf",
+     "N/m",  "kN/m", "N/m3", "kN/m3", "Pa/m",    "kPa/m", "pcf",   "m/s",   "cm/s",  "m/h",
+     "m/d",  "mm/h", "m/s2", "ft/s2", "degrees", "deg",   "rad",   "rad/s", "deg/s", "1/m",
+     "1/cm", "1/ft", "%",    "N*m",   "kN*m",    "MN*m",  "kg/m2", "t/m2",  "Hz"});
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

@@ -153,6 +153,9 @@ Model build_model(const Case& case_as_drawn) {
   model.walls = walls_of(scene, model.particles.position);
   model.visibility = Visibility(scene.soils, model.walls, model.particles, 2 * model.smoothing_length,
                                 model.spacing, scene.sheets);
+  if (std::ranges::any_of(model.walls, &Wall::is_periodic) && !model.visibility.everywhere())
+    throw std::runtime_error(
+        "periodic sides go with boundaries that meet at right angles around the soil alone, without slits");
   const std::vector<double> inertia = inertia_over_mass(scene);
   for (std::size_t i = 0; i < model.particles.size(); ++i) {
     const std::int32_t soil = model.particles.soil[i];

@@ -78,7 +78,7 @@ struct Summary {
   std::optional<Zigzag> zigzag;
   /// Where the energy went that gravity released in soil that flows [J/m].
   struct EnergyBudget {
-    double released = 0;        ///< by gravity, loads and water, with what evening out the particles put in
+    double released = 0;        ///< by gravity, loads, water, shaking and evening out the particles
     double kinetic = 0;         ///< now
     double elastic = 0;         ///< gained
     double plastic = 0;         ///< dissipated by the soil laws

@@ -32,7 +32,7 @@ PressureStabilisation stabilisation(const Case& scene, const Model& model) {
       scene.water.coupling.stabilisation * scene.water.unit_weight * model.spacing * model.spacing;
   std::vector<double> tau;
   for (const Soil& soil : model.soils) tau.push_back(all / soil.constrained_modulus());
-  return pressure_stabilisation(scene.soils, tau, model.particles, model.spacing);
+  return pressure_stabilisation(scene, tau, model.particles);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutl
 std::optional<Drainage> drainage(const Case& scene, const Particles& p) {
   if (scene.water.mode != WaterMode::coupled) return std::nullopt;
   const std::vector<HydraulicFaceCase> faces = faces_of_excess(scene);
-  const HydraulicOutline outline = hydraulic_outline(scene.soils, faces, scene.particles.spacing);
+  const HydraulicOutline outline =
+      hydraulic_outline(scene.soils, faces, scene.particles.spacing, scene.boundaries);
   Drainage d{.outline = outline,
              .faces = FaceConditions(outline, faces, true),
              .flow = saturated_flow(scene.soils, outline, p, scene.particles.spacing)};
@@ -23,10 +24,13 @@ std::optional<Drainage> drainage(const Case& scene, const Particles& p) {
   return d;
 }
 
-PressureStabilisation pressure_stabilisation(std::vector<SoilCase> soils, std::span<const double> tau,
-                                             const Particles& particles, double spacing) {
+PressureStabilisation pressure_stabilisation(const Case& scene, std::span<const double> tau,
+                                             const Particles& particles) {
+  std::vector<SoilCase> soils = scene.soils;
+  const double spacing = scene.particles.spacing;
   for (std::size_t i = 0; i < soils.size(); ++i) soils[i].permeability = Point::Constant(tau[i]);
-  const HydraulicOutline outline = hydraulic_outline(soils, {{.kind = FaceKind::closed}}, spacing);
+  const HydraulicOutline outline =
+      hydraulic_outline(soils, {{.kind = FaceKind::closed}}, spacing, scene.boundaries);
   return {saturated_flow(soils, outline, particles, spacing), outline, particles.position};
 }
 

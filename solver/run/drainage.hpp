@@ -26,8 +26,8 @@ DarcyFlow saturated_flow(const std::vector<SoilCase>& soils, const HydraulicOutl
                          const Particles& particles, double spacing);
 
 /// With these permeabilities, one for each soil, as tau.
-PressureStabilisation pressure_stabilisation(std::vector<SoilCase> soils, std::span<const double> tau,
-                                             const Particles& particles, double spacing);
+PressureStabilisation pressure_stabilisation(const Case& scene, std::span<const double> tau,
+                                             const Particles& particles);
 
 /// S of each particle: what its water gives by its own compression, per head [m].
 std::vector<double> storage_of_water(const Case& scene, const Particles& particles);

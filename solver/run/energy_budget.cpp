@@ -25,7 +25,7 @@ Summary::EnergyBudget energy_counts(Simulation& s) {
   const FlowingSoil::Work& work = flow->work();
   // Steps count the energy of the largest moduli, by which alone the law's dissipation would be too large.
   const double beyond = energy_beyond_linear(s.model()) - work.beyond_linear_at_start;
-  Budget counts{.released = -(now.gravity + now.water) + s.given_by_loads() + work.shift,
+  Budget counts{.released = -(now.gravity + now.water) + s.given_by_loads() + s.base().work() + work.shift,
                 .kinetic = now.kinetic,
                 .elastic = now.elastic + beyond,
                 .plastic = work.plastic - beyond,

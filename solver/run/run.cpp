@@ -27,6 +27,7 @@ class Equilibrium {
     for (const Vec2& p : s.model().particles.start) low = low.cwiseMin(p), high = high.cwiseMax(p);
     needed_ = 2 * (high - low).maxCoeff() / s.model().wave_speed;
     if (!s.scene().water.level_over_time.empty()) changes_end_ = s.scene().water.level_over_time.back().x();
+    changes_end_ = std::max(changes_end_, end_of_shaking(s.scene().shaking));
     for (const LoadCase& load : s.scene().loads)
       if (!load.over_time.empty()) changes_end_ = std::max(changes_end_, load.over_time.back().x());
     for (const FootingCase& footing : s.scene().footings)
@@ -66,6 +67,7 @@ std::vector<double> history_row(Simulation& s) {
   if (!s.footings().empty() || !s.sheets().empty()) s.accelerations();
   std::vector<double> row = {s.time()};
   if (const auto drained = s.drained()) row.push_back(*drained);
+  if (s.base().acts()) row.push_back(s.base().acceleration(s.time()));
   if (s.seepage() != nullptr) {
     const std::vector<double> of_water = water_balance_row(s);
     row.insert(row.end(), of_water.begin(), of_water.end());
@@ -105,13 +107,13 @@ double energy_growth(const Simulation::Energy& now, const RunProgress& progress)
 }
 
 /// The conventional form does work under water (the suction at the surface of eq. 21), and so does a water
-/// level that moves or presses on a face, a load that changes, a footing and a sheet: there energy tells
-/// nothing.
+/// level that moves or presses on a face, a load that changes, a base that shakes, a footing and a sheet:
+/// there energy tells nothing.
 bool keeps_energy(const Simulation& s) {
   const Case& scene = s.scene();
   const bool loads_change =
       std::ranges::any_of(scene.loads, [](const LoadCase& load) { return !load.over_time.empty(); });
-  return !loads_change && scene.footings.empty() && scene.sheets.empty() &&
+  return !loads_change && !scene.shaking.acts() && scene.footings.empty() && scene.sheets.empty() &&
          scene.water.level_over_time.empty() && !scene.water.flows() && s.model().loads.empty() &&
          !(scene.water.present() && scene.formulation.motion == Motion::conventional);
 }
@@ -161,6 +163,7 @@ bool Schedule::due(std::int64_t step) const {
 std::vector<std::string> history_columns(const Simulation& simulation) {
   std::vector<std::string> columns = {"time"};
   if (simulation.drained()) columns.push_back("water.drained");
+  if (simulation.base().acts()) columns.push_back("base.acceleration");
   if (simulation.seepage() != nullptr) {
     const std::vector<std::string> of_water = water_balance_columns(simulation);
     columns.insert(columns.end(), of_water.begin(), of_water.end());

@@ -67,6 +67,7 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
       model_(build_model(scene)),
       dynamics_(dynamics(scene.formulation, model_)),
       surface_(surface_forces(moved(scene, -model_.origin), model_)),
+      motion_{.base = BaseMotion(scene.shaking), .water = {}},
       clock_(make_clock(scene, model_, beginning.time)),
       watch_(scene, model_) {
   if (!scene.stages.empty())
@@ -235,6 +236,7 @@ void Simulation::sum_forces() {
   dynamics_->accelerations(a);
   if (water != nullptr) water->add_force(a);
   surface_.press(model_, time(), a);
+  motion_.base.push(time(), a);
   if (flow_.seepage) flow_.seepage->add_weight(model_.particles, model_.gravity, a);
   if (water != nullptr && surface_.hold_soil()) forces_.unheld = a;
   hold_soil(a);
@@ -267,6 +269,8 @@ void Simulation::advance_in_motion() {
   const bool measure = scene_.loading.adaptive_damping && clock_.step % Relaxation::steps_between == 0;
   const std::vector<Vec2> before = measure ? forces_.accelerations : std::vector<Vec2>();
   if (motion_.water && !change_pressure()) return;
+  if (motion_.base.acts())
+    motion_.base.count_work(time(), model_.particles, next_kick(), forces_.accelerations);
   drift();
   for (Sheet& sheet : surface_.sheets) sheet.take_step();
   forces_.valid = false;
@@ -329,6 +333,7 @@ void Simulation::visit(StateArchive& state) {
   if (flow_.coupled) flow_.coupled->visit(state);
   if (flow_.seepage) flow_.settling.visit(state);
   if (scene_.water.flows_over_time()) visit_motion(state);
+  if (motion_.base.acts()) motion_.base.visit(state);
   if (!state.restoring()) return;
   model_.water.set_time(time());
   forces_.valid = false;

@@ -8,6 +8,7 @@
 
 #include "solver/model/model.hpp"
 #include "solver/output/frame.hpp"
+#include "solver/run/base_motion.hpp"
 #include "solver/run/clock.hpp"
 #include "solver/run/consolidation.hpp"
 #include "solver/run/dynamic_water.hpp"
@@ -92,6 +93,7 @@ class Simulation {
   }
   /// Energy that loads have put in since then because they change [J/m].
   double given_by_loads() const { return motion_.given_by_loads; }
+  const BaseMotion& base() const { return motion_.base; }
 
   /// Accelerations at the present instant, damping left out [m/s2].
   std::span<const Vec2> accelerations();
@@ -169,6 +171,7 @@ class Simulation {
   };
   /// Soil that moves with its inertia, and its water with it.
   struct Motion {
+    BaseMotion base;
     std::unique_ptr<DynamicWater> water;  ///< null where no excess pressure arises
     bool now = false;
     double failed_at = never;  ///< when soil lost its equilibrium in a flow [s]

@@ -39,7 +39,7 @@ WaterStencils::WaterStencils(const Case& scene, const Model& model)
   for (const SoilCase& soil : soils_)
     tau.push_back(scene.water.unit_weight * scene.loading.gravity / soil.unit_weight_saturated);
   for (std::size_t i = 0; i < tau.size(); ++i) of_inertia_[i].permeability = Point::Constant(tau[i]);
-  inertia_ = pressure_stabilisation(soils_, tau, model.particles, spacing_);
+  inertia_ = pressure_stabilisation(scene, tau, model.particles);
   take_slope(model.particles.size());
 }
 

@@ -210,6 +210,24 @@ OF_THE_GROUND = [
      FOOTING.replace("force = 1e4", "settlement = 0.1\nover_time = [[0, 0], [1, 1]]")
      + "[water]\nmode = \"undrained\"\nlevel = 2\n[time]"),
 ]
+SIDE = '[[boundary]]\nkind = "periodic"\nfrom = [{0}, 0]\nto = [{0}, {1}]\n'
+SIDES = SIDE.format(0, 2) + SIDE.format(4, 2)
+SINE = "[shaking]\namplitude = 1\nfrequency = 2\n"
+IN_AN_EARTHQUAKE = [
+    ("one periodic side", "[time]", SIDE.format(0, 2) + "[time]"),
+    ("a periodic side that is too short", "[time]", SIDE.format(0, 2) + SIDE.format(4, 1) + "[time]"),
+    ("periodic sides of unlike height", "[[boundary]]", CLAY.replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]",
+                                                                     "[[0, 2], [2, 2], [2, 4], [0, 4]]")
+     + SIDE.format(0, 4) + SIDE.format(4, 4) + "[[boundary]]"),
+    ("periodic sides in the paper's forms", "[time]", '[formulation]\nmotion = "proposed"\n' + SIDES + "[time]"),
+    ("a sine without its frequency", "[time]", "[shaking]\namplitude = 1\n[time]"),
+    ("a ramp longer than the sine", "[time]", SINE + "cycles = 3\nramp = 2\n[time]"),
+    ("a sine and a course over time", "[time]", SINE + "acceleration_over_time = [[0, 0], [1, 1]]\n[time]"),
+    ("shaking of soil that rests all the while", "[time]",
+     SINE + '[water]\nmode = "undrained"\nlevel = 3\n[time]'),
+    ("Byrne's sand without what compacts it", "[[boundary]]",
+     'law = "byrne"\ncohesion = 0\nfriction_angle = 30\n[[boundary]]'),
+]
 STRENGTH = 'law = "mohr_coulomb"\ncohesion = 1e3\nfriction_angle = 30\n'
 PLATE = FOOTING.replace("[1, 2]", "[0, 2]").replace("[3, 2]", "[0.9, 2]")
 FILL = CLAY.replace("clay", "fill").replace("[[4.2, 0], [9, 0], [9, 2], [4.2, 2]]", "[[0, 2], [4, 2], [4, 4], [0, 4]]")
@@ -417,6 +435,7 @@ def main():
     page += table("In the case", in_a_case(place, program, IN_THE_CASE))
     page += table("In the ground", in_a_case(place, program, OF_THE_GROUND))
     page += table("In the flow of water", in_a_case(place, program, IN_THE_FLOW))
+    page += table("In an earthquake", in_a_case(place, program, IN_AN_EARTHQUAKE))
     page += table("In a stage", in_a_case(place, program, IN_A_STAGE))
     page += table("Warnings of the case", in_a_case(place, program, WARNED_OF, expected=(0,)))
     page += table("On the command line", by_command(place, program, ON_THE_COMMAND_LINE))

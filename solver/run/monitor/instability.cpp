@@ -130,6 +130,7 @@ double closest_distance(std::span<const Vec2> positions, double radius) {
 std::optional<Breakdown> find_beyond_wall(const Model& model, double time) {
   const Particles& p = model.particles;
   for (const Wall& wall : model.walls) {
+    if (wall.is_periodic()) continue;
     const Vec2 along = (wall.to - wall.from).normalized();
     const double length = (wall.to - wall.from).norm();
     for (std::size_t i = 0; i < p.size(); ++i) {

@@ -16,7 +16,7 @@ Vec2 short_of_walls(const Model& model, const Vec2& from, Vec2 move) {
   const double nearest = LooseParticles::nearest * model.spacing;
   for (const Wall& wall : model.walls) {
     const double towards = -move.dot(wall.normal);
-    if (towards <= 0 || !wall.faces(from, model.spacing)) continue;
+    if (towards <= 0 || wall.is_periodic() || !wall.faces(from, model.spacing)) continue;
     const double room = std::max(0.0, wall.distance(from) - nearest);
     if (towards > room) move += (towards - room) * wall.normal;
   }

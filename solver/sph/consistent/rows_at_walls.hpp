@@ -53,10 +53,13 @@ class RowsAtWalls {
   std::vector<Gradients> gradient_;      ///< of each of those
 };
 
-/// Whether point b is an image in a wall that holds soil fast.
+/// Whether point b is an image in a wall that holds soil fast, or what goes on of one at a periodic side.
 inline bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
-  return static_cast<std::size_t>(b) >= n && r.ghosts.wall(b - n).support().carries_shear();
+  if (static_cast<std::size_t>(b) < n) return false;
+  const Wall& wall = r.ghosts.wall(b - n);
+  return wall.is_periodic() ? is_fixed_image(r, r.ghosts.image(b - n).parent)
+                            : wall.support().carries_shear();
 }
 
 }  // namespace porosph

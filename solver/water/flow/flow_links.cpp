@@ -33,7 +33,7 @@ void FlowLinks::link(const OutlineSight& sight, const CubicSpline<2>& kernel) {
 }
 
 /// The stretch that a line from one point to another meets first, -1 where it stays in the soil. Water
-/// does not pass around the outside of a corner.
+/// does not pass around the outside of a corner. At a periodic stretch the soil goes on.
 int FlowLinks::first_stretch_between(const Vec2& from, const Vec2& to) const {
   const double slack = on_outline * spacing_;
   int first = -1;
@@ -41,6 +41,7 @@ int FlowLinks::first_stretch_between(const Vec2& from, const Vec2& to) const {
   for (std::size_t s = 0; s < outline_.stretches.size(); ++s) {
     const Wall& wall = outline_.stretches[s];
     const double before = wall.distance(from), after = wall.distance(to);
+    if (wall.is_periodic()) continue;
     if (!(before > slack && after < -slack) && !(before < -slack && after > slack)) continue;
     const double t = before / (before - after);
     const double at = outline_.along(static_cast<int>(s), from + t * (to - from));
@@ -56,6 +57,7 @@ bool FlowLinks::is_beside_its_stretch(std::size_t ghost) const {
   if (ghosts_.stems_from_ghost(ghost)) return is_beside_its_stretch(ghosts_.parent(ghost) - particles());
   const int stretch = ghosts_.image(ghost).wall;
   const Wall& wall = outline_.stretches[stretch];
+  if (wall.is_periodic()) return true;
   const double at = outline_.along(stretch, points_[ghosts_.parent(ghost)]), slack = on_outline * spacing_;
   return at > -slack && at < (wall.to - wall.from).norm() + slack;
 }
@@ -65,7 +67,8 @@ bool FlowLinks::sees_ghost(const OutlineSight& sight, std::int32_t a, std::size_
   if (!is_beside_its_stretch(ghost)) return false;
   if (lies_on_mirror(a, ghost)) return true;
   if (ghosts_.stems_from_ghost(ghost)) return !as_drawn_ || sight.sees_ghost(a, ghost, ghosts_, p_);
-  return first_stretch_between(points_[a], points_[particles() + ghost]) == ghosts_.image(ghost).wall;
+  const int stretch = ghosts_.wall(ghost).is_periodic() ? -1 : ghosts_.image(ghost).wall;
+  return first_stretch_between(points_[a], points_[particles() + ghost]) == stretch;
 }
 
 /// From a particle on the outline, all that is mirrored in that stretch is in sight.

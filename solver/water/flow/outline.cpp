@@ -98,6 +98,13 @@ Wall mirror(const Segment& s, const std::vector<Segment>& all, double tolerance)
   return wall;
 }
 
+bool is_periodic(const Segment& s, std::span<const BoundaryCase> boundaries, double tolerance) {
+  return std::ranges::any_of(boundaries, [&](const BoundaryCase& b) {
+    const Interval on = covered(s, b.from, b.to, tolerance);
+    return b.kind == BoundaryKind::periodic && on.to - on.from > s.length() / 2;
+  });
+}
+
 int face_at(const std::vector<HydraulicFaceCase>& faces, const Segment& s, double along, double tolerance) {
   for (std::size_t f = faces.size(); f-- > 0;) {
     if (faces[f].everywhere()) return static_cast<int>(f);
@@ -125,6 +132,14 @@ std::vector<double> cuts(const std::vector<HydraulicFaceCase>& faces, const Segm
 
 }  // namespace
 
+int HydraulicOutline::way_back(int stretch) const {
+  if (!stretches[stretch].is_periodic()) return stretch;
+  const auto other = std::ranges::find_if(stretches, [&](const Wall& w) {
+    return w.is_periodic() && w.normal.dot(stretches[stretch].normal) < 0;
+  });
+  return static_cast<int>(other - stretches.begin());
+}
+
 int HydraulicOutline::patch_at(int stretch, double along) const {
   const auto begin = patches.begin() + first[stretch], end = patches.begin() + first[stretch + 1];
   const double length = (end - 1)->to;
@@ -135,14 +150,18 @@ int HydraulicOutline::patch_at(int stretch, double along) const {
 }
 
 HydraulicOutline hydraulic_outline(const std::vector<SoilCase>& soils,
-                                   const std::vector<HydraulicFaceCase>& faces, double spacing) {
+                                   const std::vector<HydraulicFaceCase>& faces, double spacing,
+                                   std::span<const BoundaryCase> boundaries) {
   const double tolerance = touching * spacing;
-  const std::vector<Segment> segments = joined(outside(soils, tolerance), tolerance);
+  std::vector<Segment> segments = joined(outside(soils, tolerance), tolerance);
+  const auto goes_on = [&](const Segment& s) { return is_periodic(s, boundaries, tolerance); };
+  std::ranges::stable_partition(segments, [&](const Segment& s) { return !goes_on(s); });
   HydraulicOutline outline;
   outline.first = {0};
   for (const Segment& s : segments) {
     const int stretch = static_cast<int>(outline.stretches.size());
     outline.stretches.push_back(mirror(s, segments, tolerance));
+    if (goes_on(s)) outline.stretches.back().kind = BoundaryKind::periodic;
     const std::vector<double> at = cuts(faces, s, tolerance);
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
       const double count = std::ceil(2 * (at[i + 1] - at[i]) / spacing), step = (at[i + 1] - at[i]) / count;
@@ -152,6 +171,7 @@ HydraulicOutline hydraulic_outline(const std::vector<SoilCase>& soils,
     }
     outline.first.push_back(static_cast<std::int32_t>(outline.patches.size()));
   }
+  join_sides(outline.stretches);
   return outline;
 }
 

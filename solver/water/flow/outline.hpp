@@ -1,6 +1,7 @@
 // The outside of the soils as water sees it: straight stretches, cut into patches with a condition each.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/boundary/wall.hpp"
@@ -34,14 +35,19 @@ struct HydraulicOutline {
   Vec2 middle(const HydraulicPatch& p) const {
     return p.stretch < 0 ? p.place : at(p.stretch, (p.from + p.to) / 2);
   }
+  /// The stretch that water passes on its way back from where it comes to through this one: itself, but of
+  /// periodic sides the other one.
+  int way_back(int stretch) const;
   /// The patch at a distance along a stretch; beyond an end, that which lies as far before it.
   int patch_at(int stretch, double along) const;
 };
 
 /// Of the outline that no other soil covers; stretches of several soils that continue in one line are one. Of
-/// faces that overlap the later one holds. Patches are at most half a spacing [m] long.
+/// faces that overlap the later one holds. Patches are at most half a spacing [m] long. Those of `boundaries`
+/// that are periodic come last and are so here.
 HydraulicOutline hydraulic_outline(const std::vector<SoilCase>& soils,
-                                   const std::vector<HydraulicFaceCase>& faces, double spacing);
+                                   const std::vector<HydraulicFaceCase>& faces, double spacing,
+                                   std::span<const BoundaryCase> boundaries = {});
 
 /// The first stretch of the outline that no face names, "(x, y) to (x, y)"; empty where all is named.
 std::string unnamed_stretch(const HydraulicOutline& outline);

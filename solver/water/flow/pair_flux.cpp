@@ -62,11 +62,15 @@ class Builder {
 
   using Mirrored = std::array<std::int32_t, 4>;  ///< a, b and the stretches between them
   Mirrored key(const FacePair& p, bool turned) const {
-    const auto stretch = [&](int i) { return p.patch[i] < 0 ? -1 : outline_.patches[p.patch[i]].stretch; };
+    const auto stretch = [&](int i) {
+      if (p.patch[i] < 0) return -1;
+      const int there = outline_.patches[p.patch[i]].stretch;
+      return turned ? outline_.way_back(there) : there;
+    };
     return {turned ? p.to : p.from, turned ? p.from : p.to, stretch(0), stretch(1)};
   }
 
-  /// What passes from a to the image of b comes back from b to the image of a, through the same patch. At
+  /// What passes from a to the image of b comes back from b to the image of a, through the same stretch. At
   /// odd corners one of the two may be hidden: the other one is left out.
   void pair_up() {
     std::map<Mirrored, const FacePair*> known;
@@ -139,6 +143,7 @@ class Builder {
   }
 
   static Vec2 crossing(const Wall& wall, const Vec2& from, const Vec2& to) {
+    if (wall.is_periodic()) return from;  // it may lie beyond
     const double before = wall.distance(from), behind = -wall.distance(to);
     return from + before / (before + behind) * (to - from);
   }
