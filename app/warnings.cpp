@@ -75,7 +75,8 @@ void warn_of_smaller_steps(const Simulation& simulation) {
   const double asked = simulation.scene().time.courant;
   if (simulation.courant() < asked)
     std::cerr << fmt::format(
-        "porosph: note: the stiffest of the particles allows time.courant = {:.3g}, which is taken in place of "
+        "porosph: note: the stiffest of the particles allows time.courant = {:.3g}, which is taken in place "
+        "of "
         "{:g}\n",
         simulation.courant(), asked);
 }
