@@ -36,12 +36,12 @@ struct Byrne : MohrCoulomb {
 
   /// Goes on to a shear strain; returns d e_vd where that ends a half-cycle, or else 0.
   [[gnu::always_inline]] double compact(History& q, double shear) const {
-    const double way = q.farthest_since - q.turned_at, on = shear - q.farthest_since;
-    const double farthest = (way < 0 ? on < 0 : on > 0) ? shear : q.farthest_since;
+    const double upper = shear > q.farthest_since ? shear : q.farthest_since;
+    const double lower = shear < q.farthest_since ? shear : q.farthest_since;
+    const double farthest = q.farthest_since >= q.turned_at ? upper : lower;
     const bool turns = std::abs(shear - farthest) > 2 * threshold;
-    const double amplitude = 0.5 * std::abs(farthest - q.turned_at);
-    const double left = decay(c2 * q.compaction / (amplitude > 0 ? amplitude : 1));
-    const double compacted = turns ? 0.5 * c1 * amplitude * left : 0;
+    const double amplitude = 0.5 * std::abs(farthest - q.turned_at), counted = turns ? amplitude : 0;
+    const double compacted = 0.5 * c1 * counted * decay(c2 * q.compaction / (amplitude > 0 ? amplitude : 1));
     q.compaction += compacted;
     q.shear = shear;
     q.turned_at = turns ? farthest : q.turned_at;
