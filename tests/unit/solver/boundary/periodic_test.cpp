@@ -46,8 +46,8 @@ TEST_CASE("behind a periodic side lies what is at the other, also once soil has 
     REQUIRE(has(points, there[2] - Vec2(4, 0)));
     for (std::size_t i = 0; i < images.size(); ++i) {  // each once, and no copy of a copy
       REQUIRE(images[i].parent < 3);
-      REQUIRE(std::ranges::count_if(points, [&](const Vec2& q) { return (q - points[3 + i]).norm() < 1e-9; }) ==
-              1);
+      REQUIRE(std::ranges::count_if(points,
+                                    [&](const Vec2& q) { return (q - points[3 + i]).norm() < 1e-9; }) == 1);
     }
   }
   for (const Wall& wall : walls) CHECK(wall.reflection().isIdentity(0));
