@@ -5,49 +5,55 @@
 namespace porosph {
 
 PressureStabilisation::PressureStabilisation(const DarcyFlow& closed, const HydraulicOutline& outline,
-                                             std::span<const Vec2> position)
-    : pairs_(closed.pairs()) {
-  const std::vector<double> level(pairs_.particles(), 0);
-  std::vector<double> none(pairs_.particles());
+                                             std::span<const Vec2> position) {
+  const FlowPairs& flow = closed.pairs();
+  const std::size_t n = flow.particles();
+  const std::vector<double> level(n, 0);
+  std::vector<double> none(n);
   const FaceConditions faces(outline, {{.kind = FaceKind::closed}}, true);
   closed.assemble(level, faces, DarcyFlow::Slope::secant, compact_, none);
-  for (std::size_t a = 0; a < pairs_.particles(); ++a)
-    for (auto k = pairs_.begin[a]; k < pairs_.begin[a + 1]; ++k)
-      x_.push_back(position[pairs_.pairs[k].to] - position[a]);
-  for (std::size_t a = 0; a < pairs_.particles(); ++a) {
+  pairs_.begin = flow.begin, images_.begin = flow.face_begin;
+  for (std::size_t a = 0; a < n; ++a) {
     Mat2 second = Mat2::Zero();
-    for_pairs(a, [&](std::int32_t, double c, const Vec2& x) { second += c * x * x.transpose(); });
+    const auto add = [&](Links& links, std::int32_t b, double c, const Vec2& x) {
+      links.to.push_back(b), links.flow.emplace_back(c * x);
+      second += c * x * x.transpose();
+    };
+    for (auto k = flow.begin[a]; k < flow.begin[a + 1]; ++k) {
+      const FlowPair& pair = flow.pairs[k];
+      add(pairs_, pair.to, pair.conductance, position[pair.to] - position[a]);
+    }
+    for (auto k = flow.face_begin[a]; k < flow.face_begin[a + 1]; ++k) {
+      const FacePair& pair = flow.face_pairs[k];
+      add(images_, pair.to, pair.conductance, pair.x);
+    }
     const double size = second.trace();
     const bool spans = second.determinant() > 1e-3 * size * size;
-    second_.push_back(spans ? inverse(second) : Mat2(Mat2::Zero()));
+    second_.push_back(spans ? Mat2(inverse(second) / 2) : Mat2(Mat2::Zero()));
   }
 }
 
-/// Calls use(b, c_ab, x_ab) for its pairs, with images as the particles that they mirror.
-template <class Use>
-void PressureStabilisation::for_pairs(std::size_t a, Use&& use) const {
-  for (auto k = pairs_.begin[a]; k < pairs_.begin[a + 1]; ++k)
-    use(pairs_.pairs[k].to, pairs_.pairs[k].conductance, x_[k]);
-  for (auto k = pairs_.face_begin[a]; k < pairs_.face_begin[a + 1]; ++k) {
-    const FacePair& pair = pairs_.face_pairs[k];
-    use(pair.to, pair.conductance, pair.x);
-  }
-}
-
+/// A pair is listed by both of its particles, an image by the one that sees it.
 void PressureStabilisation::apply(std::span<const double> head, std::span<double> out) const {
   compact_.multiply(head, out);
-  std::vector<Vec2> mean(pairs_.particles());
+  const std::size_t n = second_.size();
+  std::vector<Vec2> mean(n);
 #pragma omp parallel for schedule(static)
-  for (std::size_t a = 0; a < mean.size(); ++a) {
+  for (std::size_t a = 0; a < n; ++a) {
     Vec2 q = Vec2::Zero();
-    for_pairs(a, [&](std::int32_t b, double c, const Vec2& x) { q += c * (head[b] - head[a]) * x; });
-    mean[a] = second_[a] * q / 2;
+    const auto add = [&](std::int32_t b, const Vec2& flow) { q += (head[b] - head[a]) * flow; };
+    pairs_.of(a, add), images_.of(a, add);
+    mean[a] = second_[a] * q;
   }
-  for (std::size_t a = 0; a < mean.size(); ++a)
-    for_pairs(a, [&](std::int32_t b, double c, const Vec2& x) {
-      const double t = c * x.dot(mean[a]);
-      out[b] -= t, out[a] += t;
-    });
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < n; ++a) {
+    double sum = 0;
+    pairs_.of(a, [&](std::int32_t b, const Vec2& flow) { sum += flow.dot(mean[a] + mean[b]); });
+    images_.of(a, [&](std::int32_t, const Vec2& flow) { sum += flow.dot(mean[a]); });
+    out[a] += sum;
+  }
+  for (std::size_t a = 0; a < n; ++a)
+    images_.of(a, [&](std::int32_t b, const Vec2& flow) { out[b] -= flow.dot(mean[a]); });
 }
 
 }  // namespace porosph

@@ -30,19 +30,28 @@ class PressureStabilisation {
   PressureStabilisation(const DarcyFlow& closed, const HydraulicOutline& outline,
                         std::span<const Vec2> position);
 
-  bool active() const { return !pairs_.volume.empty(); }
+  bool active() const { return !second_.empty(); }
   /// -tau L_compact, an upper bound of T.
   const SparseRows& compact() const { return compact_; }
   /// T h of each particle [m2].
   void apply(std::span<const double> head, std::span<double> out) const;
 
  private:
-  template <class Use>
-  void for_pairs(std::size_t a, Use&& use) const;
+  /// Of each particle in turn.
+  struct Links {
+    std::vector<std::int64_t> begin;
+    std::vector<std::int32_t> to;  ///< b
+    std::vector<Vec2> flow;        ///< c_ab x_ab [m2]
 
-  FlowPairs pairs_;
-  std::vector<Vec2> x_;       ///< of its pairs
-  std::vector<Mat2> second_;  ///< A^-1 of the particles
+    /// Calls use(b, c_ab x_ab) for those of a.
+    template <class Use>
+    void of(std::size_t a, Use&& use) const {
+      for (auto k = begin[a]; k < begin[a + 1]; ++k) use(to[k], flow[k]);
+    }
+  };
+
+  Links pairs_, images_;      ///< with particles; with images, as the particles that they mirror
+  std::vector<Mat2> second_;  ///< A^-1 / 2 of the particles
   SparseRows compact_;
 };
 
