@@ -29,6 +29,7 @@ DynamicWater::DynamicWater(const Case& scene, Model& model, Dynamics& dynamics)
                   &work_.spread, &work_.search.direction, &work_.search.answer, &work_.search.preconditioned})
     v->assign(n, 0);
   for (auto* v : {&work_.velocity, &work_.push, &work_.present, &work_.change}) v->assign(n, Vec2::Zero());
+  for (auto* v : {&work_.rates, &work_.search.rates}) v->assign(n, Mat2::Zero());
 }
 
 /// Z counts from here.
@@ -69,7 +70,8 @@ void DynamicWater::measure_surface() {
   const Particles& p = model_.particles;
   std::ranges::fill(work_.pressure, -unit_weight_);
   dynamics_.excess_accelerations(work_.pressure, work_.push);
-  dynamics_.volume_rates(work_.push, work_.rate);
+  dynamics_.sliding_rates(work_.push, work_.rates);
+  dynamics_.volume_rates(work_.rates, work_.rate);
   for (std::size_t a = 0; a < p.size(); ++a) {
     surface_.open[a] = std::max(0.0, p.volume(a) * work_.rate[a]);
     surface_.outlet[a] = stencils_.outlet(p.mass[a] / unit_weight_ * work_.push[a], a, p);
@@ -109,9 +111,10 @@ void DynamicWater::add_force(std::span<Vec2> accelerations) {
 }
 
 /// As the soil's law is strained: at the middle of the step.
-std::span<const double> DynamicWater::take_strain(double dt) {
+std::span<const double> DynamicWater::take_strain(double dt, bool as_foreseen) {
   const Particles& p = model_.particles;
-  dynamics_.volume_rates(p.velocity, work_.rate, dt / 2);
+  if (!as_foreseen) dynamics_.sliding_rates(p.velocity, work_.rates);
+  dynamics_.volume_rates(work_.rates, work_.rate, dt / 2);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < p.size(); ++a) of_.gained[a] += dt * p.volume(a) * work_.rate[a];
   let_through();
@@ -160,7 +163,8 @@ void DynamicWater::make_right_side(Kick kick, std::span<const Vec2> acceleration
   const double dt = step_.dt;
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) work_.velocity[a] = kick(p.velocity[a], accelerations[a]);
-  dynamics_.volume_rates(work_.velocity, work_.rate, dt / 2);
+  dynamics_.sliding_rates(work_.velocity, work_.rates);
+  dynamics_.volume_rates(work_.rates, work_.rate, dt / 2);
   find_inflow();
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a)
@@ -169,15 +173,19 @@ void DynamicWater::make_right_side(Kick kick, std::span<const Vec2> acceleration
                                                   dt * (work_.inflow[a] - p.volume(a) * work_.rate[a]);
 }
 
-/// The matrix times a head; and what that head's pressure accelerates.
-void DynamicWater::answer(std::span<const double> head) {
+/// The matrix times a head; and what that head's pressure accelerates, which what holds the soil, P, takes
+/// its part of: P / rho is symmetric, and so is D P 1/rho D^T.
+void DynamicWater::answer(std::span<const double> head, const Hold& hold) {
   const Particles& p = model_.particles;
   const std::size_t n = head.size();
   const double dt = step_.dt, gain = step_.gain;  // clang 14 takes no structured binding into a parallel loop
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < n; ++a) work_.pressure[a] = -unit_weight_ * head[a];
   dynamics_.excess_accelerations(work_.pressure, work_.push);
-  dynamics_.volume_rates(work_.push, work_.rate);
+  work_.held_push = work_.push;
+  if (hold) hold(work_.held_push);
+  dynamics_.sliding_rates(work_.held_push, work_.search.rates);
+  dynamics_.volume_rates(work_.search.rates, work_.rate);
   stencils_.inertia().apply(head, work_.spread);
   std::ranges::fill(work_.inflow, 0.0);
   if (stencils_.drains()) stencils_.slope().multiply(head, work_.inflow);
@@ -214,14 +222,14 @@ void DynamicWater::precondition(double tolerance) {
 }
 
 /// One turn along a direction that is conjugate to the last, whose square in the matrix was `overlap`;
-/// returns that of this one. What is left takes the right side's place.
-double DynamicWater::turn(double overlap) {
+/// returns that of this one. What is left takes the right side's place; Z and dF/dt go along.
+double DynamicWater::turn(double overlap, const Hold& hold) {
   const std::size_t n = of_.change.size();
   const double along_last =
       overlap > 0 ? -dot(work_.search.preconditioned, work_.search.answer) / overlap : 0;
   for (std::size_t a = 0; a < n; ++a)
     work_.search.direction[a] = work_.search.preconditioned[a] + along_last * work_.search.direction[a];
-  answer(work_.search.direction);
+  answer(work_.search.direction, hold);
   overlap = dot(work_.search.direction, work_.search.answer);
   const double far = overlap > 0 ? dot(work_.search.direction, work_.right_side) / overlap : 0;
 #pragma omp parallel for schedule(static)
@@ -229,6 +237,9 @@ double DynamicWater::turn(double overlap) {
     of_.change[a] += far * work_.search.direction[a];
     work_.right_side[a] -= far * work_.search.answer[a];
     work_.change[a] += far * work_.push[a];
+    work_.velocity[a] += far * step_.gain * work_.held_push[a];
+    work_.rates[a] += far * step_.gain * work_.search.rates[a];
+    of_.held[a] += far * step_.dt * step_.gain * work_.spread[a];
   }
   ++counts_.turns;
   return overlap;
@@ -236,7 +247,7 @@ double DynamicWater::turn(double overlap) {
 
 /// For dh, and the accelerations that its pressure gives: flexible conjugate gradients (Notay 2000), since
 /// the preconditioner is itself solved to a tolerance.
-void DynamicWater::solve() {
+void DynamicWater::solve(const Hold& hold) {
   const double start = dot(work_.right_side, work_.right_side);
   work_.search.preconditioned = of_.change;
   std::ranges::fill(of_.change, 0.0);
@@ -246,19 +257,17 @@ void DynamicWater::solve() {
   for (int turns = 0; turns == 0 || !is_enough(start); ++turns) {
     if (turns == most_turns) throw Lost{worst()};
     precondition(turns == 0 ? krylov_tolerance : in_later_turns);
-    overlap = turn(overlap);
+    overlap = turn(overlap, hold);
     std::ranges::fill(work_.search.preconditioned, 0.0);
   }
 }
 
-/// Takes dh in: pressures, what stabilisation holds, and what flows at the end of the step.
+/// Takes dh in: pressures, and what flows at the end of the step.
 void DynamicWater::keep() {
   const std::size_t n = of_.head.size();
-  stencils_.inertia().apply(of_.change, work_.spread);
   for (std::size_t a = 0; a < n; ++a) {
     of_.head[a] += of_.change[a];
     of_.excess[a] = -unit_weight_ * of_.head[a];
-    of_.held[a] += step_.dt * step_.gain * work_.spread[a];
   }
   const double lost = find_inflow() - stencils_.through_faces(of_.head);
   if (stencils_.drains())
@@ -267,23 +276,23 @@ void DynamicWater::keep() {
 }
 
 /// Of all its pressure, with the mean of the velocities before and after.
-void DynamicWater::count_work(Kick kick, std::span<const Vec2> accelerations) {
+void DynamicWater::count_work() {
   const Particles& p = model_.particles;
   taken_ -= deterministic_sum(p.size(), [&](std::size_t a) {
-    const Vec2 mean = (p.velocity[a] + kick(p.velocity[a], accelerations[a])) / 2;
-    return kick.gain * p.mass[a] * (work_.present[a] + work_.change[a]).dot(mean);
+    const Vec2 mean = (p.velocity[a] + work_.velocity[a]) / 2;
+    return step_.gain * p.mass[a] * (work_.present[a] + work_.change[a]).dot(mean);
   });
 }
 
-void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations) {
+void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations, const Hold& hold) {
   step_ = {dt, kick.gain};
   if (stencils_.follow_pores(of_.gained)) work_.of_matrix = {};
   make_matrix();
   make_right_side(kick, accelerations);
-  solve();
+  solve(hold);
 #pragma omp parallel for schedule(static)
   for (std::size_t a = 0; a < accelerations.size(); ++a) accelerations[a] += work_.change[a];
-  count_work(kick, accelerations);
+  count_work();
   keep();
   ++counts_.steps;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -45,15 +46,19 @@ class DynamicWater {
     std::size_t particle;
   };
 
+  using Hold = std::function<void(std::span<Vec2>)>;
+
   /// In place of the dynamics' own: follows a renewed reference.
   void prepare();
   /// Adds what the present pressures do to the accelerations.
   void add_force(std::span<Vec2> accelerations);
   /// Adds to the accelerations, with which `kick` and a step dt [s] move the particles, what the change of
-  /// pressure in that step does. Throws Lost.
-  void add_change(Kick kick, double dt, std::span<Vec2> accelerations);
+  /// pressure in that step does. `hold`, if given, makes of accelerations those that what holds the soil
+  /// leaves of them; it must be linear and symmetric, and is still to be applied to the result. Throws Lost.
+  void add_change(Kick kick, double dt, std::span<Vec2> accelerations, const Hold& hold);
   /// Takes in how the soil moved in a step dt [s]; returns how fast that changes its volume [1/s].
-  std::span<const double> take_strain(double dt);
+  /// `as_foreseen`: with the accelerations that add_change() left, held.
+  std::span<const double> take_strain(double dt, bool as_foreseen);
 
   std::span<const double> head() const { return of_.head; }      ///< excess, of the particles [m]
   std::span<const double> excess() const { return of_.excess; }  ///< p_e [Pa]
@@ -93,12 +98,15 @@ class DynamicWater {
   };
   struct Scratch {
     std::vector<double> rate, inflow, right_side, pressure, spread;
-    std::vector<Vec2> velocity, push, present, change;
+    std::vector<Vec2> velocity;  ///< that the pressure so far gives at the end of the step [m/s]
+    std::vector<Vec2> push, held_push, present, change;
+    std::vector<Mat2> rates;  ///< dF/dt at the end of the step [1/s]
     SparseRows matrix;
     Step of_matrix;
     struct {
       std::vector<double> direction, answer, preconditioned;
-    } search;  ///< of the conjugate gradients
+      std::vector<Mat2> rates;  ///< of what the direction pushes
+    } search;                   ///< of the conjugate gradients
   };
   void measure_surface();
   void find_fixed();
@@ -107,13 +115,13 @@ class DynamicWater {
   void make_matrix();
   double find_inflow();
   void make_right_side(Kick kick, std::span<const Vec2> accelerations);
-  void solve();
+  void solve(const Hold& hold);
   void precondition(double tolerance);
-  void answer(std::span<const double> head);
-  double turn(double overlap);
+  void answer(std::span<const double> head, const Hold& hold);
+  double turn(double overlap, const Hold& hold);
   bool is_enough(double start) const;
   void keep();
-  void count_work(Kick kick, std::span<const Vec2> accelerations);
+  void count_work();
   double held_water(std::size_t a) const {
     return of_.gained[a] + of_.storage[a] * of_.head[a] + of_.held[a];
   }

@@ -104,6 +104,22 @@ void Footing::hold(const Particles& p, Kick kick, double dt, double then, std::s
   if (!case_.rough) shear_ = 0;
 }
 
+void Footing::hold_alike(const Particles& p, std::span<Vec2> accelerations) const {
+  std::vector<Vec2> of_strips;
+  double sum = 0, stiffness = 0;
+  for (const Strip& strip : strips_) {
+    of_strips.push_back(mean(strip, accelerations));
+    sum += of_strips.back().dot(into_) / strip.compliance, stiffness += 1 / strip.compliance;
+  }
+  const double own = case_.settlement < never ? 0 : sum / stiffness;
+  for (std::size_t k = 0; k < strips_.size(); ++k) {
+    Vec2 taken = (of_strips[k].dot(into_) - own) * into_;
+    if (case_.rough) taken += of_strips[k].dot(along_) * along_;
+    for (std::size_t i = strips_[k].first; i < strips_[k].last; ++i)
+      accelerations[particles_[i]] -= weights_[i] / (p.mass[particles_[i]] * strips_[k].compliance) * taken;
+  }
+}
+
 std::vector<Footing> make_footings(const Case& scene, const Model& model) {
   if (scene.footings.empty()) return {};
   const std::vector<Vec2> vectors = surface_vectors(scene, model);

@@ -31,6 +31,10 @@ class Footing {
   /// to where the plate is at the time `then` [s], in balance with its force or at its settlement.
   void hold(const Particles& particles, Kick kick, double dt, double then, std::span<Vec2> accelerations);
 
+  /// What it leaves of accelerations [m/s2] that begin from how it holds the strips already: they move alike,
+  /// or not at all where it is driven by its settlement.
+  void hold_alike(const Particles& particles, std::span<Vec2> accelerations) const;
+
   /// Puts it on the ground as the particles lie, where it has settled so far [m] already.
   void place(const Particles& particles, double settlement);
   double settlement(const Particles& particles) const;  ///< into the soil, since it was placed [m]

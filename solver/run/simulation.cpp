@@ -278,7 +278,8 @@ void Simulation::advance_in_motion() {
   clock_.go_on();
   if (instability()) return;
   const std::span<const double> of_water =
-      motion_.water ? motion_.water->take_strain(step_length()) : std::span<const double>();
+      motion_.water ? motion_.water->take_strain(step_length(), surface_.sheets.empty())
+                    : std::span<const double>();
   dynamics_->strain(step_length(), of_water);
   model_.pore_water->flow(model_.water, model_.particles, step_length());
   if (motion_.now) show_excess();

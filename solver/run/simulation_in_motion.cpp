@@ -78,12 +78,17 @@ void Simulation::show_excess() {
   for (std::size_t a = 0; a < p.size(); ++a) p.pore_pressure[a] += excess[a];
 }
 
-/// The pressure at the end of the step acts in it; footings hold against both. Returns false where pressure
-/// and soil have parted.
+/// The pressure at the end of the step acts in it; footings hold against both, and the pressure is that with
+/// which they do. Returns false where pressure and soil have parted.
 bool Simulation::change_pressure() {
+  DynamicWater::Hold hold;
+  if (!surface_.footings.empty())
+    hold = [this](std::span<Vec2> accelerations) {
+      for (const Footing& footing : surface_.footings) footing.hold_alike(model_.particles, accelerations);
+    };
   const std::vector<Vec2> held = surface_.hold_soil() ? forces_.accelerations : std::vector<Vec2>();
   try {
-    motion_.water->add_change(next_kick(), step_length(), forces_.accelerations);
+    motion_.water->add_change(next_kick(), step_length(), forces_.accelerations, hold);
   } catch (const DynamicWater::Lost& lost) {
     const Vec2 place = model_.particles.position[lost.particle] + model_.origin;
     stop({.cause = Cause::inverted,

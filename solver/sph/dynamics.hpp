@@ -41,9 +41,12 @@ class Dynamics {
 
   /// Accelerations that pressures `excess` [Pa] alone give, one per particle [m/s2]. Walls mirror them.
   virtual void excess_accelerations(std::span<const double> excess, std::span<Vec2> out);
-  /// How fast each particle's volume grows with these velocities [m/s], over its volume [1/s]: the adjoint of
-  /// the above. `ahead`: not as the soil is deformed now, but so much later with these velocities [s].
-  virtual void volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead = 0);
+  /// dF/dt of each particle with these velocities [m/s], as walls see them that it slides along [1/s];
+  /// linear.
+  virtual void sliding_rates(std::span<const Vec2> velocities, std::span<Mat2> out);
+  /// How fast each particle's volume grows at such rates, over its volume [1/s]: the adjoint of the above.
+  /// `ahead`: not as the soil is deformed now, but so much later at these rates [s].
+  virtual void volume_rates(std::span<const Mat2> rates, std::span<double> out, double ahead = 0);
 
   /// Saves or restores what is kept from step to step, particles apart, which must be as they were at the
   /// saving. Lists and gradients are rebuilt by the code that made them first. Throws StateError.
@@ -67,7 +70,8 @@ inline void Dynamics::carry_excess(std::span<const double>) {
 inline void Dynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2>) {
   carry_excess(excess);
 }
-inline void Dynamics::volume_rates(std::span<const Vec2>, std::span<double>, double) { carry_excess({}); }
+inline void Dynamics::sliding_rates(std::span<const Vec2>, std::span<Mat2>) { carry_excess({}); }
+inline void Dynamics::volume_rates(std::span<const Mat2>, std::span<double>, double) { carry_excess({}); }
 
 /// The dynamics that the case asks for.
 std::unique_ptr<Dynamics> make_dynamics(const FormulationCase& formulation, Model& model);

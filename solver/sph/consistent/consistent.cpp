@@ -129,6 +129,7 @@ bool ConsistentDynamics::strangers_are_near() {
 void ConsistentDynamics::take_velocities() {
   fluxes_.take_velocities<Mirrors::motion>(reference_, model_.particles.velocity);
   if (flow_.active()) flow_.take_velocities(reference_, model_.particles);
+  since_.others_move = false;
 }
 
 /// Carries all particles over a step dt with the velocities taken; dt = 0 only writes the fluxes.
@@ -150,6 +151,7 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
+  if (since_.others_move) take_velocities();
   fluxes_.prepare_forces(reference_, model_, control_.spring, flow_.active() ? &flow_.viscosity() : nullptr,
                          friction_);
 #pragma omp parallel for schedule(static)
@@ -209,23 +211,26 @@ void ConsistentDynamics::excess_accelerations(std::span<const double> excess, st
     kernels_.accelerate(arrays, tile, out.data()->data());
 }
 
-/// Soil slides along walls as far as its volume is concerned: what moves along them strains nothing. Loose
-/// particles keep theirs. The velocities of the particles take their place again for the next forces.
-void ConsistentDynamics::volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead) {
+/// What moves along walls strains nothing, as far as the volume is concerned. Loose particles keep theirs.
+void ConsistentDynamics::sliding_rates(std::span<const Vec2> velocities, std::span<Mat2> out) {
   fluxes_.take_velocities<Mirrors::direction>(reference_, velocities);
+  since_.others_move = true;
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < reference_.stencils.tiles(); ++tile) {
     std::array<PlaneTensor, PairStencils::tile> rates;
     kernels_.rates(arrays_, tile, rates.data()->data());
     const std::size_t first = static_cast<std::size_t>(tile) * PairStencils::tile;
-    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a) {
-      const Mat2 rate = matrix(rates[a - first]);
-      const double carried = flow_.active() ? flow_.deforms()[a] : 1;
-      const bool is_loose = flow_.active() && flow_.loose().is(a);
-      out[a] = is_loose ? 0 : (rate * inverse(fluxes_.deformation(a) + ahead * carried * rate)).trace();
-    }
+    for (std::size_t a = first; a < std::min(first + PairStencils::tile, out.size()); ++a)
+      out[a] = flow_.active() && flow_.loose().is(a) ? Mat2(Mat2::Zero()) : matrix(rates[a - first]);
   }
-  fluxes_.take_velocities<Mirrors::motion>(reference_, model_.particles.velocity);
+}
+
+void ConsistentDynamics::volume_rates(std::span<const Mat2> rates, std::span<double> out, double ahead) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < out.size(); ++a) {
+    const double carried = flow_.active() ? flow_.deforms()[a] : 1;
+    out[a] = (rates[a] * inverse(fluxes_.deformation(a) + ahead * carried * rates[a])).trace();
+  }
 }
 
 void ConsistentDynamics::strain(double dt, std::span<const double> volume_rates) {

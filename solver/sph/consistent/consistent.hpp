@@ -40,7 +40,8 @@ class ConsistentDynamics final : public Dynamics {
   void strain(double dt, std::span<const double> volume_rates) override;
   void carry_excess(std::span<const double> excess) override { arrays_.state.excess = excess.data(); }
   void excess_accelerations(std::span<const double> excess, std::span<Vec2> out) override;
-  void volume_rates(std::span<const Vec2> velocities, std::span<double> out, double ahead) override;
+  void sliding_rates(std::span<const Vec2> velocities, std::span<Mat2> out) override;
+  void volume_rates(std::span<const Mat2> rates, std::span<double> out, double ahead) override;
   void visit(StateArchive& state) override;
   const FlowingSoil* flow() const override { return flow_.active() ? &flow_ : nullptr; }
   double work_of_wall_friction() const override { return friction_.work(); }
@@ -63,6 +64,7 @@ class ConsistentDynamics final : public Dynamics {
   struct SinceReference {
     double strain = 0;                ///< the largest |F - I|
     double travel = 0;                ///< bound on any particle's path since neighbours were looked at [m]
+    bool others_move = false;         ///< velocities of others than the particles have taken their place
     std::vector<double> yields = {};  ///< of particles: as in SoilStateView; empty where nobody asks
     std::optional<Fluxes> of_excess = {};  ///< those of an excess pressure alone, once they are asked for
   };

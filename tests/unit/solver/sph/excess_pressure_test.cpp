@@ -37,13 +37,15 @@ Works works(Dynamics& dynamics, const Model& model) {
   Noise noise(7);
   std::vector<double> pressure, rate(p.size());
   std::vector<Vec2> velocity, push(p.size());
+  std::vector<Mat2> rates(p.size());
   for (std::size_t a = 0; a < p.size(); ++a) {
     const bool bears = flow == nullptr || !flow->loose().soil_has_flowed() || !flow->loose().is(a);
     pressure.push_back(bears ? 1e4 * noise() : 0);
     velocity.push_back(noise.vector());
   }
   dynamics.excess_accelerations(pressure, push);
-  dynamics.volume_rates(velocity, rate);
+  dynamics.sliding_rates(velocity, rates);
+  dynamics.volume_rates(rates, rate);
   Works w;
   for (std::size_t a = 0; a < p.size(); ++a) {
     const double force = p.mass[a] * push[a].dot(velocity[a]);
