@@ -48,8 +48,12 @@ Clock make_clock(const Case& scene, const Model& model, double start) {
   return clock;
 }
 
-void Clock::count_ticks_until(double end) {
-  last_step = std::int64_t{1} << 40;
+void Clock::count_ticks_until(double end, double shortest) {
+  constexpr double ticks_of_shortest = 64;
+  constexpr std::int64_t fewest = std::int64_t{1} << 40, most = std::int64_t{1} << 53;  // exact as numbers
+  last_step = fewest;
+  while (last_step < most && end / static_cast<double>(last_step) > shortest / ticks_of_shortest)
+    last_step *= 2;
   dt = end / static_cast<double>(last_step);
 }
 

@@ -23,8 +23,9 @@ struct Clock {
   bool ended() const { return step >= last_step; }
   void go_on() { step += ticks, ++moves; }
 
-  /// From now on dt is a tick so short that steps of any length up to `end` [s] end on one.
-  void count_ticks_until(double end);
+  /// From now on dt is a tick so short that steps of any length up to `end` [s] end on one, and a step of
+  /// `shortest` [s] takes many.
+  void count_ticks_until(double end, double shortest);
   /// Takes the time that a flow reached on its way to the tick `due`.
   void reach(double time, std::int64_t due);
   /// The next tick at which the case writes something, as Schedule counts it.

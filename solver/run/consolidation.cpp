@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "solver/space/parallel.hpp"
 #include "solver/space/place_text.hpp"
@@ -203,7 +204,16 @@ double Consolidation::advance(double now, double until) {
   }
   show_pressure(1);
   ++counts_.flow_steps;
+  if (progress_.failed_step > 0 && now >= progress_.failed_at)
+    progress_.step = std::exchange(progress_.failed_step, 0);
   return now;
+}
+
+bool Consolidation::seek_failure(double now, double lost) {
+  constexpr double closest = 1.0 / 16 - 1e-6;
+  if (progress_.failed_step == 0) progress_.failed_step = lost - now, progress_.failed_at = lost;
+  progress_.step = (lost - now) / 2;
+  return progress_.step > closest * progress_.failed_step;
 }
 
 double Consolidation::load_step(double now, double until) {
@@ -265,6 +275,8 @@ void Consolidation::visit(StateArchive& state) {
   state.value("drained", progress_.drained);
   state.value("unbalanced", progress_.unbalanced);
   state.value("loaded", progress_.started);
+  state.value("failed_step", progress_.failed_step);
+  state.value("failed_at", progress_.failed_at);
   state.value("flow_steps", counts_.flow_steps);
   state.value("pressure_solves", counts_.pressure_solves);
   state.value("krylov_iterations", counts_.krylov_iterations);

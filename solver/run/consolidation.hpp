@@ -37,6 +37,11 @@ class Consolidation {
   /// std::runtime_error where the soil does not come to rest: it has failed.
   double advance(double now, double until);
 
+  /// After a step from `now` that did not come to rest at the time `lost` [s], and once the state before it
+  /// is back: halves the next step. Returns false where that is shorter than a sixteenth of the step that
+  /// failed first, so that the moment of failure is known to as much.
+  bool seek_failure(double now, double lost);
+
   std::span<const double> head() const { return of_.head; }          ///< excess, of the particles [m]
   double water_gained(std::size_t a) const { return of_.water[a]; }  ///< W of a particle [m2]
   double volume_gained(std::size_t a) const { return soil_.volume_gained(a); }   ///< dV [m2]
@@ -79,6 +84,7 @@ class Consolidation {
     double drained = 0;         ///< [m2]
     double unbalanced = 0;
     bool started = false;
+    double failed_step = 0, failed_at = 0;  ///< that shorter steps lead towards; 0: none [s]
   };
   /// How the soil came to rest, at the end of a stage.
   struct Rest {

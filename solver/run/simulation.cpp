@@ -129,7 +129,12 @@ void Simulation::time_by_flow() {
   if (scene_.time.step > 0)
     throw std::runtime_error("time.step: a coupled run chooses its steps, and cannot be given a later end");
   flow_.settling.dt = clock_.dt;
-  clock_.count_ticks_until(scene_.time.end);
+  clock_.count_ticks_until(scene_.time.end, may_lose_equilibrium() ? clock_.dt : never);
+  if (may_lose_equilibrium() && clock_.dt > flow_.settling.dt)
+    throw std::runtime_error(
+        fmt::format("time.end = {:g} s: is too long to count in steps of {:.2g} s, which "
+                    "soil takes that has failed (water.motion)",
+                    scene_.time.end, flow_.settling.dt));
 }
 
 /// One step of the flow; returns whether the soil is to follow it: something is due where it has got to.
@@ -157,6 +162,8 @@ void Simulation::advance_flow() {
   if (!at_rest) return;
   const double lost = flow_.coupled->time();
   at_rest->restore(*this);
+  watch_.forget();
+  if (flow_.coupled->seek_failure(time(), lost)) return;
   clock_.reach(lost, next_due());
   begin_motion();
 }

@@ -192,7 +192,7 @@ Case slowly_pressed_block(double motion_time) {
 
 TEST_CASE("a block that keeps its water loses equilibrium at its undrained strength, and moves from there",
           "[water][dynamic][automatic]") {
-  constexpr double motion_time = 0.35;  // 1 s later it is crushed
+  constexpr double motion_time = 1;
   Simulation s(slowly_pressed_block(motion_time));
   double at_rest = 0;
   while (s.step() < s.last_step() && !s.instability()) {
@@ -201,9 +201,9 @@ TEST_CASE("a block that keeps its water loses equilibrium at its undrained stren
   }
   REQUIRE(s.in_motion());
   if (s.instability()) FAIL(s.instability()->message);
-  CHECK(1.25 * s.failed_at() / 86400 == Approx(1).margin(0.02));
+  CHECK(1.25 * s.failed_at() / 86400 == Approx(1).margin(0.003));
   CHECK(s.time() == Approx(s.failed_at() + motion_time).margin(1e-3));
-  CHECK(s.largest_displacement() > 3 * at_rest);
+  CHECK(s.largest_displacement() > 2 * at_rest);
   const Summary::EnergyBudget energy = energy_budget(s, 0).value();
   CAPTURE(s.failed_at(), at_rest, s.largest_displacement(), energy.released, energy.kinetic, energy.elastic,
           energy.plastic, energy.control, energy.water, energy.walls, energy.unaccounted);
@@ -211,6 +211,26 @@ TEST_CASE("a block that keeps its water loses equilibrium at its undrained stren
   CHECK(std::abs(energy.unaccounted) < 0.01 * energy.released);
   CHECK(std::abs(s.water_in_motion()->imbalance()) < 1e-12);
   CHECK(s.water_in_motion()->misfit() < 1e-4);
+}
+
+TEST_CASE("soil that is loaded over decades moves in steps of its own once it fails",
+          "[water][dynamic][automatic]") {
+  const double years = 30 * 365.25 * 86400;
+  Case scene = slowly_pressed_block(0.02);
+  scene.loads[0].over_time = {{0, 0}, {years, 1}};
+  scene.time.end = scene.output.interval = years;
+  scene.water.coupling.first_step = years / 10;
+  scene.time.courant = 0.2;
+  Simulation s(scene);
+  while (!s.in_motion()) s.advance();
+  const double failed_at = s.time();
+  for (int k = 0; k < 10; ++k) s.advance();
+  CHECK(s.moves() == 10);
+  CHECK(s.time() > failed_at);
+  CHECK(s.step_length() < 0.2 * s.model().smoothing_length / s.model().wave_speed);
+  CHECK(s.step_length() > 0.15 * s.model().smoothing_length / s.model().wave_speed);
+  scene.time.end = 1e15;
+  CHECK_THROWS_WITH(Simulation(scene), Catch::Contains("is too long to count in steps of"));
 }
 
 TEST_CASE("soil that has lost its equilibrium continues from a kept state to the same bits",
