@@ -67,7 +67,8 @@ void declare(Fields& f, FormulationCase& c) {
                .otherwise(
                    "0.2 where soils of different stiffness meet, 0.1 where outlines cut cells, footings "
                    "press elastic soil, or loads an elastic `lattice`; 0.05 where either press elastic soil "
-                   "at rest whose water is coupled or undrained; 0.6 where walls turn corners, slits "
+                   "at rest whose water is coupled or undrained, and 0.01 where that soil may yield; 0.6 "
+                   "where walls turn corners, slits "
                    "part the soil, bodies are apart or gradients had to be closed; 0.1 in place of these "
                    "if soil may yield; else 0"),
            c.zero_energy_stiffness, between(0, 10));

@@ -19,7 +19,8 @@ RestingSoil::RestingSoil(Model& model, Dynamics& dynamics, SurfaceForces& surfac
 
 int RestingSoil::crossing() const {
   constexpr double margin = 1.2;
-  return static_cast<int>(std::ceil(margin * extent_ / model_.spacing));
+  const double crossing = std::max(margin * extent_ / model_.spacing, extent_ / (model_.wave_speed * dt_));
+  return static_cast<int>(std::ceil(crossing));
 }
 
 /// Soil that has yielded may get another density when the reference is rebuilt. That is not a change of

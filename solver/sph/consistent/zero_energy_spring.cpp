@@ -9,16 +9,18 @@ namespace {
 
 /// s, by default where something sets off motion that alternates: soils that meet, cut cells, the ends of
 /// footings and of loads, and more of it disorder and walls at corners other than upright ones with the soil
-/// between them.
+/// between them. Soil that follows its water at rest needs it although it may yield: what alternates would
+/// not come to rest, and so it would seem to fail.
 double strength(const FormulationCase& formulation, const Model& model, bool cut,
                 const ReferenceConfiguration& r) {
-  constexpr double least = 0.05, little = 0.1, usual = 0.2, more = 0.6;  // docs/theory.md says what they do
+  constexpr double hardly = 0.01, least = 0.05, little = 0.1, usual = 0.2, more = 0.6;  // see docs/theory.md
   if (formulation.zero_energy_stiffness >= 0) return formulation.zero_energy_stiffness;
   const bool elastic = std::ranges::none_of(model.soils, &Soil::may_yield);
   if (r.closed() || !model.visibility.everywhere()) return elastic ? more : little;
   if (!r.own_sides.empty()) return elastic ? usual : little;
   if (cut || (model.press == Press::on_soil && elastic)) return little;
-  return model.press == Press::on_soil_and_water && elastic ? least : 0;
+  if (model.press != Press::on_soil_and_water) return 0;
+  return elastic ? least : hardly;
 }
 
 }  // namespace
