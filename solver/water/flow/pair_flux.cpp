@@ -1,5 +1,6 @@
 #include "solver/water/flow/pair_flux.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -40,6 +41,13 @@ class Builder {
     return second.determinant() > 0.1 ? Mat2(k.asDiagonal() * inverse(second)) : Mat2(Mat2::Identity());
   }
 
+  /// What a particle in part of a cell, on the outline, passes to another, over what its own part of the cell
+  /// passes. As drawn the outline mirrors the other one, and the rest passes to that image. Once it has moved
+  /// it has no such image, and passes to the other one as much as that one to it.
+  double share(std::int32_t a, std::int32_t b) const {
+    return as_drawn_ ? 1 : std::max(p_.fill[a], p_.fill[b]) / p_.fill[a];
+  }
+
   void fill() {
     const auto n = static_cast<std::int32_t>(links_.particles());
     for (std::int32_t a = 0; a < n; ++a) {
@@ -47,10 +55,10 @@ class Builder {
       out_.volume.push_back(links_.volume(a));
       Mat2 second = Mat2::Zero();
       for (const FlowLink& l : links_.of(a)) {
-        second +=
-            conductances_.of(l) / Conductances::mean(conductances_.permeability(l)) * l.x * l.x.transpose();
+        const double conductance = share(a, links_.root(l.to)) * conductances_.of(l);
+        second += conductance / Conductances::mean(conductances_.permeability(l)) * l.x * l.x.transpose();
         if (l.to < n)
-          out_.pairs.push_back({l.to, conductances_.of(l)});
+          out_.pairs.push_back({l.to, conductance});
         else
           out_.face_pairs.push_back(face_pair(l));
       }
@@ -83,8 +91,8 @@ class Builder {
       const auto partner = known.find(key(p, true));
       if (partner != known.end()) {
         const FacePair& other = *partner->second;
-        p.conductance =
-            p_.fill[p.from] / 2 * (p.conductance / p_.fill[p.from] + other.conductance / p_.fill[other.from]);
+        p.conductance = share(p.from, p.to) * p_.fill[p.from] / 2 *
+                        (p.conductance / p_.fill[p.from] + other.conductance / p_.fill[other.from]);
         if (other.from < p.from) p.patch = other.patch, p.crossing = other.crossing;
       } else if (!std::ranges::binary_search(on_face, p.from)) {
         continue;
