@@ -16,7 +16,7 @@ function(porosph_flags target)
   target_link_options(${target} PUBLIC $<$<BOOL:${POROSPH_COVERAGE}>:--coverage>)
 endfunction()
 
-# Reads what most files include once for all files of a target, which halves the time that they take to compile:
+# Reads what most files include once for all files of a target, which saves two of the five seconds that a small file takes:
 # porosph_precompile(TARGET). Not for the kernels, which are compiled for other vector units.
 function(porosph_precompile target)
   target_precompile_headers(${target} PRIVATE

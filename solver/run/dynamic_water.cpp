@@ -49,14 +49,14 @@ void DynamicWater::prepare() {
   const bool renewed = dynamics_.counts.refreshes != refreshes;
   if (renewed && refreshes > 0) {
     stencils_.renew(model_.particles);
-    hold_anew();
+    hold_by_new_stencils();
     ++counts_.renewals;
   }
   if (renewed || !surface_.is_known) measure_surface();
 }
 
 /// Z is that of the head with the new stencils.
-void DynamicWater::hold_anew() {
+void DynamicWater::hold_by_new_stencils() {
   stencils_.inertia().apply(of_.head, work_.spread);
   for (std::size_t a = 0; a < of_.held.size(); ++a) {
     const double held = step_.dt * step_.gain * work_.spread[a];

@@ -110,7 +110,7 @@ class DynamicWater {
   };
   void measure_surface();
   void find_fixed();
-  void hold_anew();
+  void hold_by_new_stencils();
   void let_through();
   void make_matrix();
   double find_inflow();
