@@ -1,5 +1,7 @@
 #include "render/upright_lines.hpp"
 
+#include <cmath>
+
 #include "render/chart_range.hpp"
 #include "render/line_style.hpp"
 
@@ -33,7 +35,7 @@ void draw_uprights(Canvas& canvas, const std::vector<UprightLine>& uprights, con
   const std::vector<Box> boxes = label_boxes(uprights, plot);
   for (std::size_t i = 0; i < uprights.size(); ++i) {
     if (!showable(plot.x, uprights[i].x)) continue;
-    const double x = plot.at(uprights[i].x, plot.y.low).x;
+    const double x = std::floor(plot.at(uprights[i].x, plot.y.low).x) + 0.5;  // sharp
     if (!is_inside(x, plot.box)) continue;
     canvas.line({x, plot.box.y}, {x, plot.box.top()},
                 {.colour = grey, .width = 1, .dashes = dash_pattern(LineStyle::dotted)});

@@ -92,7 +92,7 @@ void DynamicWater::find_fixed() {
     of_.head[a] = of_.excess[a] = of_.change[a] = 0;
   }
   let_through();
-  work_.of_matrix = {};
+  work_.matrix.of = {};
 }
 
 /// Water goes in and out with the soil where the head is fixed.
@@ -123,13 +123,13 @@ std::span<const double> DynamicWater::take_strain(double dt, bool as_foreseen) {
 
 /// What the matrix is in a lattice.
 void DynamicWater::make_matrix() {
-  if (work_.of_matrix == step_) return;
-  work_.of_matrix = step_;
+  if (work_.matrix.of == step_) return;
+  work_.matrix.of = step_;
   const auto& [dt, gain] = step_;
   const SparseRows& compact = stencils_.inertia().compact();
   const SparseRows* slope = stencils_.drains() ? &stencils_.slope() : nullptr;
   const auto& fixed = surface_.fixed;
-  SparseRows& m = work_.matrix = compact;
+  SparseRows& m = work_.matrix.rows = compact;
   for (std::size_t a = 0; a < m.size(); ++a) {
     m.diagonal[a] = of_.storage[a] + dt * gain * (compact.diagonal[a] + surface_.open[a]) +
                     (slope ? dt * (slope->diagonal[a] + surface_.outlet[a]) : 0);
@@ -215,8 +215,9 @@ bool DynamicWater::is_enough(double start) const {
 
 /// From the present one as a guess.
 void DynamicWater::precondition(double tolerance) {
-  const KrylovResult solved = conjugate_gradients(work_.matrix, work_.right_side, work_.search.preconditioned,
-                                                  tolerance, most_iterations, ToleranceOf::right_side);
+  const KrylovResult solved =
+      conjugate_gradients(work_.matrix.rows, work_.right_side, work_.search.preconditioned, tolerance,
+                          most_iterations, ToleranceOf::right_side);
   counts_.krylov_iterations += solved.iterations;
   if (!solved.converged) throw Lost{worst()};
 }
@@ -286,7 +287,7 @@ void DynamicWater::count_work() {
 
 void DynamicWater::add_change(Kick kick, double dt, std::span<Vec2> accelerations, const Hold& hold) {
   step_ = {dt, kick.gain};
-  if (stencils_.follow_pores(of_.gained)) work_.of_matrix = {};
+  if (stencils_.follow_pores(of_.gained)) work_.matrix.of = {};
   make_matrix();
   make_right_side(kick, accelerations);
   solve(hold);
@@ -331,7 +332,7 @@ void DynamicWater::visit(StateArchive& state) {
   for (double* v : {&step_.dt, &step_.gain, &drained_, &taken_}) state.value("dynamic_total", *v);
   for (std::int64_t* count : {&counts_.steps, &counts_.krylov_iterations, &counts_.renewals, &counts_.turns})
     state.value("dynamic_count", *count);
-  work_.of_matrix = {};
+  work_.matrix.of = {};
   stencils_.visit(state, model_.particles);
 }
 

@@ -101,8 +101,10 @@ class DynamicWater {
     std::vector<Vec2> velocity;  ///< that the pressure so far gives at the end of the step [m/s]
     std::vector<Vec2> push, held_push, present, change;
     std::vector<Mat2> rates;  ///< dF/dt at the end of the step [1/s]
-    SparseRows matrix;
-    Step of_matrix;
+    struct {
+      SparseRows rows;
+      Step of;
+    } matrix;
     struct {
       std::vector<double> direction, answer, preconditioned;
       std::vector<Mat2> rates;  ///< of what the direction pushes

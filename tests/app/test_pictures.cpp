@@ -7,6 +7,7 @@
 #include "tests/unit/render/image.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 namespace fs = std::filesystem;
 
 namespace {

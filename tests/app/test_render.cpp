@@ -6,6 +6,7 @@
 #include "tests/unit/render/image.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 using Catch::Matchers::Contains;
 
 TEST_CASE("a field is drawn in every style, with marks, on pixels and as lines") {

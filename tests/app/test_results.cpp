@@ -7,6 +7,7 @@
 #include "tests/unit/render/image.hpp"
 
 using namespace porosph;
+using namespace porosph::render;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

@@ -168,6 +168,12 @@ class Builder {
 
 }  // namespace
 
+double FlowPairs::conductance(std::int32_t a, std::int32_t b) const {
+  for (auto k = begin[a]; k < begin[a + 1]; ++k)
+    if (pairs[k].to == b) return pairs[k].conductance;
+  return 0;
+}
+
 FlowPairs make_flow_pairs(const std::vector<SoilCase>& soils, const HydraulicOutline& outline,
                           const Particles& particles, double spacing) {
   return Builder(soils, outline, particles, spacing, true).build();

@@ -48,6 +48,7 @@ struct FlowPairs {
   std::vector<std::int32_t> beside_patch;  ///< the particle nearest to each patch
 
   std::size_t particles() const { return volume.size(); }
+  double conductance(std::int32_t a, std::int32_t b) const;  ///< c_ab of a pair, 0 where they are none [m/s]
 };
 
 /// Of the particles where they are at the start, with the case's outlines moved to the model's origin.

@@ -3,7 +3,14 @@
 #include <algorithm>
 
 namespace porosph {
+namespace {
 
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
+/// A particle in half a cell on the outline is its own image: what its neighbour passes to it beyond what it
+/// passes to the neighbour goes to that image.
 PressureStabilisation::PressureStabilisation(const DarcyFlow& closed, const HydraulicOutline& outline,
                                              std::span<const Vec2> position) {
   const FlowPairs& flow = closed.pairs();
@@ -12,16 +19,18 @@ PressureStabilisation::PressureStabilisation(const DarcyFlow& closed, const Hydr
   std::vector<double> none(n);
   const FaceConditions faces(outline, {{.kind = FaceKind::closed}}, true);
   closed.assemble(level, faces, DarcyFlow::Slope::secant, compact_, none);
-  pairs_.begin = flow.begin, images_.begin = flow.face_begin;
   for (std::size_t a = 0; a < n; ++a) {
+    pairs_.begin.push_back(std::ssize(pairs_.to)), images_.begin.push_back(std::ssize(images_.to));
     Mat2 second = Mat2::Zero();
     const auto add = [&](Links& links, std::int32_t b, double c, const Vec2& x) {
       links.to.push_back(b), links.flow.emplace_back(c * x);
       second += c * x * x.transpose();
     };
     for (auto k = flow.begin[a]; k < flow.begin[a + 1]; ++k) {
-      const FlowPair& pair = flow.pairs[k];
-      add(pairs_, pair.to, pair.conductance, position[pair.to] - position[a]);
+      const auto& [b, c] = flow.pairs[k];
+      const double both = std::min(c, flow.conductance(b, static_cast<std::int32_t>(a)));
+      add(pairs_, b, both, position[b] - position[a]);
+      if (c - both > rounding * c) add(images_, b, c - both, position[b] - position[a]);
     }
     for (auto k = flow.face_begin[a]; k < flow.face_begin[a + 1]; ++k) {
       const FacePair& pair = flow.face_pairs[k];
@@ -31,6 +40,7 @@ PressureStabilisation::PressureStabilisation(const DarcyFlow& closed, const Hydr
     const bool spans = second.determinant() > 1e-3 * size * size;
     second_.push_back(spans ? Mat2(inverse(second) / 2) : Mat2(Mat2::Zero()));
   }
+  pairs_.begin.push_back(std::ssize(pairs_.to)), images_.begin.push_back(std::ssize(images_.to));
 }
 
 /// A pair is listed by both of its particles, an image by the one that sees it.

@@ -203,12 +203,13 @@ TEST_CASE("each missing key is named") {
   const TemporaryFolder folder;
   const auto whole = written(folder, example());
   for (const auto& entry : whole.items()) {
-    if (entry.key() == "errors" || entry.key() == "warnings") continue;  // of older runs: without
+    const std::string& key = entry.key();  // without the first two: of older runs; without the last: all is 1
+    if (key == "errors" || key == "warnings" || key == "scaled_inertia") continue;
     auto file = whole;
-    file.erase(entry.key());
+    file.erase(key);
     put(folder / "summary.json", file.dump());
     CHECK_THROWS_WITH(read_summary(folder / "summary.json"),
-                      Contains("summary.json") && Contains("key '" + entry.key() + "' is missing"));
+                      Contains("summary.json") && Contains("key '" + key + "' is missing"));
   }
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("values that are wrong by themselves") {
        "'-'"},
       {"\"fixed\"", "\"fixd\"",
        "box.toml:14:8: key 'boundary[0].kind' = \"fixd\": must be one of \"roller\", \"fixed\", "
-       "\"friction\"; did you mean 'fixed'?"},
+       "\"friction\", \"periodic\"; did you mean 'fixed'?"},
       {"from = [0, 0]", "from = [0, 0, 0]",
        "box.toml:15:8: key 'boundary[0].from': must be two numbers [x, y] in m"},
       {"[4, 2]", "[4, 2e8]",
