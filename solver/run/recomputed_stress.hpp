@@ -15,6 +15,6 @@ bool displacement_is_strain(const Case& before, const Case& now);
 /// place of that by those of `before`, both as drawn: then the final state does not remember the
 /// discretisation of soil that was dug out. same[i]: the particle of `before` that particle i of `now` was.
 void recompute_stress(const HandedOver& from, const Model& before, const Model& now,
-                 std::span<const std::int32_t> same, Particles& particles);
+                      std::span<const std::int32_t> same, Particles& particles);
 
 }  // namespace porosph

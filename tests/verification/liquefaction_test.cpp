@@ -80,6 +80,8 @@ TEST_CASE("loose sand liquefies on a base that shakes as finite differences say"
   run_to(5);
   const double slower = (settlement_of(s) - settled) / (column.settlement() - of_column) - 1;
   expect(measured("settlement from 3 to 5 s, error"), std::abs(slower), 0.2);
+  CHECK(s.water_in_motion()->counts().renewals > 0);
+  CHECK(std::abs(s.water_in_motion()->imbalance()) < 1e-12);
 }
 
 TEST_CASE("ground between periodic sides moves alike across its width, and liquefied soil has its energy",
