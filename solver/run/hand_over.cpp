@@ -172,7 +172,8 @@ void take_over(const Beginning& beginning, const Case& scene, Model& model) {
     for (std::size_t i = 0; i < p.size(); ++i)
       if (same[i] >= 0) p.uncounted[i] = from.particles.uncounted[same[i]];
   }
-  const bool recomputes = displacement_is_strain(from.scene, scene);
+  const bool all_were_there = std::ranges::none_of(same, [](std::int32_t b) { return b < 0; });
+  const bool recomputes = all_were_there && displacement_is_strain(from.scene, scene);
   const std::optional<Model> drawn = recomputes ? std::optional(model) : std::nullopt;
   TakeOver(from, drawn_before.particles, model, same).take();
   if (recomputes) recompute_stress(from, drawn_before, *drawn, same, p);
