@@ -12,7 +12,7 @@ std::optional<render::ValueRange> read_range(const std::string& option, const st
   const auto comma = text.find(',');
   if (comma == std::string::npos) throw UsageError(fmt::format("{} = {}: must be LOW,HIGH", option, text));
   const render::ValueRange range{read_number(option, text.substr(0, comma)),
-                         read_number(option, text.substr(comma + 1))};
+                                 read_number(option, text.substr(comma + 1))};
   if (range.low >= range.high) throw UsageError(fmt::format("{} = {}: LOW must be below HIGH", option, text));
   return range;
 }

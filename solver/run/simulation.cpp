@@ -80,10 +80,9 @@ Simulation::Simulation(const Case& scene, const Beginning& beginning, const Dyna
   if (scene.water.couples() && !motion_.now) couple();
   flow_.seepage = std::dynamic_pointer_cast<TransientWater>(model_.pore_water);
   if (flow_.seepage) time_by_flow();
-  to_rest_.inertia = ScaledInertia(scene, model_);
-  if (beginning.state == nullptr) return;
   take_over(beginning, scene, model_);
   to_rest_.inertia = ScaledInertia(scene, model_);
+  if (beginning.state == nullptr) return;
   for (Footing& footing : surface_.footings) {
     const auto there = beginning.state->settlements.find(footing.name());
     footing.place(model_.particles, there == beginning.state->settlements.end() ? 0 : there->second);
