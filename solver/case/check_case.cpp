@@ -243,9 +243,10 @@ std::vector<CaseIssue> check_settings(const Case& c) {
       issues.push_back({at("output.fields", i), "is the excess over the exact solution: needs 'reference'"});
   if (!c.start_from.empty() && c.reference != Reference::none)
     issues.push_back(
-        {"start_from", "does not go with 'reference', which is for a case that starts by itself"});
+        {"start_from", "cannot be combined with 'reference', which is for a case that starts by itself"});
   if (!c.start_from.empty() && c.water.flows_over_time())
-    issues.push_back({"start_from", fmt::format("does not go with water.mode = \"{}\"", name(c.water.mode))});
+    issues.push_back(
+        {"start_from", fmt::format("cannot be combined with water.mode = \"{}\"", name(c.water.mode))});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.soils[i].law == LawKind::cam_clay && c.soils[i].cam_clay.preconsolidation == 0 &&
         !c.loading.k0_stress)
@@ -259,7 +260,7 @@ std::vector<CaseIssue> check_settings(const Case& c) {
     if (c.water.flows_over_time())
       issues.push_back(
           {at("boundary", i, "kind"),
-           fmt::format("\"friction\" does not go with water.mode = \"{}\"", name(c.water.mode))});
+           fmt::format("\"friction\" cannot be combined with water.mode = \"{}\"", name(c.water.mode))});
   }
   const Issues of_sides = check_sides_settings(c);
   issues.insert(issues.end(), of_sides.begin(), of_sides.end());

@@ -99,7 +99,7 @@ std::vector<CaseIssue> check_footings(const Case& c) {
                         fmt::format("with water.mode = \"{}\" a footing needs 'force'", name(c.water.mode))});
     if (c.water.mode == WaterMode::transient)
       issues.push_back(
-          {key, fmt::format("a footing does not go with water.mode = \"{}\"", name(c.water.mode))});
+          {key, fmt::format("a footing cannot be combined with water.mode = \"{}\"", name(c.water.mode))});
   }
   return issues;
 }

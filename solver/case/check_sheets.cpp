@@ -58,7 +58,7 @@ std::vector<CaseIssue> check_sheets(const Case& c) {
                         "at it"});
     if (c.water.flows())
       issues.push_back(
-          {key, fmt::format("a sheet does not go with water.mode = \"{}\"", name(c.water.mode))});
+          {key, fmt::format("a sheet cannot be combined with water.mode = \"{}\"", name(c.water.mode))});
     for (std::size_t j = 0; j < i; ++j)
       if (distance(sheet.from, sheet.to, c.sheets[j].from, c.sheets[j].to) < 4 * c.smoothing_length())
         issues.push_back({key, fmt::format("must be {} m or more away from sheet '{}'",

@@ -19,15 +19,15 @@ std::string kind_of(std::size_t i) { return fmt::format("boundary[{}].kind", i);
 std::string obstacle_to_periodic(const Case& c) {
   if (c.formulation.motion != Motion::consistent) return "needs formulation.motion = \"consistent\"";
   if (c.water.mode == WaterMode::steady || c.water.mode == WaterMode::transient)
-    return fmt::format("does not go with water.mode = \"{}\"", name(c.water.mode));
-  if (!c.stages.empty() || !c.start_from.empty()) return "does not go with stages and start_from";
-  if (!c.sheets.empty()) return "does not go with sheets";
+    return fmt::format("cannot be combined with water.mode = \"{}\"", name(c.water.mode));
+  if (!c.stages.empty() || !c.start_from.empty()) return "cannot be combined with stages and start_from";
+  if (!c.sheets.empty()) return "cannot be combined with sheets";
   return "";
 }
 
 std::string obstacle_to_shaking(const Case& c) {
   if (c.water.steps_by_flow()) return "needs soil that moves: water.motion = \"dynamic\"";
-  if (!c.sheets.empty()) return "does not go with sheets, which it would not shake";
+  if (!c.sheets.empty()) return "cannot be combined with sheets, which it would not shake";
   return "";
 }
 

@@ -7,7 +7,7 @@
 
 namespace porosph {
 
-/// What periodic boundaries and [shaking] do not go with; in any outlines.
+/// What periodic boundaries and [shaking] cannot be combined with; in any outlines.
 std::vector<CaseIssue> check_sides_settings(const Case& scene);
 
 /// Whether periodic boundaries are a pair of upright sides of level layers; needs sound outlines.

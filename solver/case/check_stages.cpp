@@ -28,14 +28,15 @@ Issues check_settings_of_stages(const Case& c) {
         issues.push_back({key(i, fmt::format("excavate_within[{}]", k)), fault});
   }
   if (c.water.flows_over_time())
-    issues.push_back({"stage[0]", fmt::format("water.mode = \"{}\" does not go with stages: it must be "
-                                              "\"still\" or \"steady\"",
-                                              name(c.water.mode))});
+    issues.push_back(
+        {"stage[0]", fmt::format("water.mode = \"{}\" cannot be combined with stages: it must be "
+                                 "\"still\" or \"steady\"",
+                                 name(c.water.mode))});
   if (c.reference != Reference::none) issues.push_back({"reference", "is for a case without stages"});
   for (std::size_t i = 0; i < c.soils.size(); ++i)
     if (c.soils[i].angular_velocity != 0 || c.soils[i].bending_velocity != 0)
       issues.push_back(
-          {fmt::format("soil[{}]", i), "an initial rotation or vibration does not go with stages"});
+          {fmt::format("soil[{}]", i), "an initial rotation or vibration cannot be combined with stages"});
   return issues;
 }
 

@@ -156,7 +156,7 @@ void declare(Fields& f, BoundaryCase& c) {
       Key("kind", "",
           "`roller`: free to slide along it; `fixed`: no motion; `friction`: sliding along it only where the "
           "shear stress reaches `coefficient` times the normal effective stress; `periodic`: one of the two "
-          "upright sides of level layers, behind each of which soil and water go on as they begin at the "
+          "upright sides of level layers, behind each of which soil and water continue as they begin at the "
           "other (docs/shaking.md).")
           .required(),
       c.kind, boundary_kinds);

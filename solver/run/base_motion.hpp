@@ -13,12 +13,12 @@ namespace porosph {
 /// Acceleration of the base to the right at a time [m/s2, s].
 double base_acceleration(const ShakingCase& shaking, double time);
 
-/// When it is over [s]; never: it goes on.
+/// When it is over [s]; never: it does not end.
 double end_of_shaking(const ShakingCase& shaking);
 
-/// The equation of motion is that of a frame that moves with the base: each particle has the acceleration
-/// -a_b(t) more, soil and water alike, and supports stand still. Positions, displacements and velocities are
-/// relative to the base, and so is kinetic energy; the work of the base is that of the forces -m a_b.
+/// The equation of motion is that of a frame that moves with the base: -a_b(t) is added to the acceleration
+/// of each particle, soil and water alike, and supports stand still. Positions, displacements and velocities
+/// are relative to the base, and so is kinetic energy; the work of the base is that of the forces -m a_b.
 class BaseMotion {
  public:
   explicit BaseMotion(const ShakingCase& shaking) : shaking_(shaking) {}

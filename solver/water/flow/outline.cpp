@@ -155,7 +155,8 @@ HydraulicOutline hydraulic_outline(const std::vector<SoilCase>& soils,
   const double tolerance = touching * spacing;
   std::vector<Segment> segments = joined(outside(soils, tolerance), tolerance);
   const auto goes_on = [&](const Segment& s) { return is_periodic(s, boundaries, tolerance); };
-  std::ranges::stable_partition(segments, [&](const Segment& s) { return !goes_on(s); });
+  // clang 14 does not compile the stable_partition of std::ranges.
+  std::stable_partition(segments.begin(), segments.end(), [&](const Segment& s) { return !goes_on(s); });
   HydraulicOutline outline;
   outline.first = {0};
   for (const Segment& s : segments) {

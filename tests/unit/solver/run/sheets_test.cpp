@@ -218,7 +218,7 @@ TEST_CASE("a sheet that cannot be is refused", "[sheet]") {
   CHECK_THAT(issues_of([](Case& c, SheetCase&) { c.particles.arrangement = Arrangement::lattice; }),
              Contains("a sheet needs particles.arrangement"));
   CHECK_THAT(issues_of([](Case& c, SheetCase&) { c.water.mode = WaterMode::steady; }),
-             Contains("a sheet does not go with water.mode = \"steady\""));
+             Contains("a sheet cannot be combined with water.mode = \"steady\""));
   CHECK_THAT(issues_of([](Case& c, SheetCase&) {
                c.sheets.push_back(sheet_between({2.5, 4}, {2.5, 1}, 1e6, 1e8));
                c.sheets.back().name = "other";
