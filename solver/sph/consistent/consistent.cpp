@@ -50,6 +50,7 @@ double ConsistentDynamics::refresh_strain() const {
 }
 
 void ConsistentDynamics::prepare() {
+  since_.forces_act = false;
   const bool deformed = since_.strain > refresh_strain();
   if (reference_.made() && !strangers_are_near() && !deformed) return;
   if (!reference_.made())
@@ -151,6 +152,7 @@ LargestChange ConsistentDynamics::strain_all(double dt) {
 }
 
 void ConsistentDynamics::accelerations(std::span<Vec2> out) {
+  since_.forces_act = true;
   if (since_.others_move) take_velocities();
   fluxes_.prepare_forces(reference_, model_, control_.spring, flow_.active() ? &flow_.viscosity() : nullptr,
                          friction_);
@@ -236,8 +238,8 @@ void ConsistentDynamics::volume_rates(std::span<const Mat2> rates, std::span<dou
 void ConsistentDynamics::strain(double dt, std::span<const double> volume_rates) {
   if (flow_.active()) {
     flow_.loose().walls().stepped(dt);
-    flow_.count_work(reference_, model_.particles, dt);
-    if (friction_.active()) friction_.count(model_.particles, dt);
+    if (since_.forces_act) flow_.count_work(reference_, model_.particles, dt);
+    if (since_.forces_act && friction_.active()) friction_.count(model_.particles, dt);
     flow_.diffuse_stress(model_, kernels_, arrays_);
   }
   take_velocities();

@@ -65,6 +65,7 @@ class ConsistentDynamics final : public Dynamics {
     double strain = 0;                ///< the largest |F - I|
     double travel = 0;                ///< bound on any particle's path since neighbours were looked at [m]
     bool others_move = false;         ///< velocities of others than the particles have taken their place
+    bool forces_act = false;          ///< in this step, so that they do work
     std::vector<double> yields = {};  ///< of particles: as in SoilStateView; empty where nobody asks
     std::optional<Fluxes> of_excess = {};  ///< those of an excess pressure alone, once they are asked for
   };
