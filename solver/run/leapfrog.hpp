@@ -13,6 +13,7 @@ struct Kick {
   Vec2 operator()(const Vec2& velocity, const Vec2& acceleration) const {
     return keep * velocity + gain * acceleration;
   }
+  bool operator==(const Kick&) const = default;
 };
 
 /// To v^{n+1/2} from v^{n-1/2}, with the acceleration a^n and the damping c_d [1/s], which acts on their mean

@@ -170,6 +170,7 @@ void Simulation::advance_flow() {
 void Simulation::take_accelerations_at_rest() {
   const auto left = flow_.coupled->accelerations();
   forces_.accelerations.assign(left.begin(), left.end());
+  forces_.unheld.clear();
   forces_.valid = true;
 }
 
@@ -230,6 +231,9 @@ std::span<const Vec2> Simulation::accelerations() {
     sum_forces();
     if (motion_.now) show_excess();
     forces_.valid = true;
+  } else if (!forces_.unheld.empty() && forces_.held_in != next_kick()) {  // the damping has changed since
+    forces_.accelerations = forces_.unheld;
+    hold_soil(forces_.accelerations);
   }
   return forces_.accelerations;
 }
@@ -244,12 +248,15 @@ void Simulation::sum_forces() {
   surface_.press(model_, time(), a);
   motion_.base.push(time(), a);
   if (flow_.seepage) flow_.seepage->add_weight(model_.particles, model_.gravity, a);
-  if (water != nullptr && surface_.hold_soil()) forces_.unheld = a;
+  forces_.unheld.clear();
+  if (!surface_.hold_soil()) return;
+  forces_.unheld = a;
   hold_soil(a);
 }
 
 void Simulation::hold_soil(std::span<Vec2> accelerations) {
-  surface_.hold(model_, next_kick(), step_length(), clock_.then(), accelerations);
+  forces_.held_in = next_kick();
+  surface_.hold(model_, forces_.held_in, step_length(), clock_.then(), accelerations);
 }
 
 std::vector<Vec2> Simulation::velocities() {
@@ -355,6 +362,7 @@ void Simulation::remember() {
 
 bool Simulation::exchange_with_last_good() {
   if (!good_.exchange(model_.particles, forces_.accelerations, clock_.step)) return false;
+  forces_.unheld.clear();
   forces_.valid = true;
   return true;
 }

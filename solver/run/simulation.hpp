@@ -183,7 +183,8 @@ class Simulation {
   /// At the present instant, one per particle [m/s2].
   struct Forces {
     std::vector<Vec2> accelerations;
-    std::vector<Vec2> unheld;  ///< without what footings and sheets do; where pressures change in a step
+    std::vector<Vec2> unheld;  ///< without what footings and sheets do; empty where these do nothing
+    Kick held_in = {};         ///< the kick for which those hold the soil
     bool valid = false;
   };
 
