@@ -66,6 +66,7 @@ void Simulation::choose_ticks() {
   if (!follows_flow()) return;
   const double longest = flow_.settling.dt / clock_.dt;
   const std::int64_t left = next_due() - clock_.step;
+  if (left < 1) return;  // beyond the end: steps like the last one
   clock_.ticks = left / static_cast<std::int64_t>(std::ceil(static_cast<double>(left) / longest));
 }
 
