@@ -43,7 +43,8 @@ Polygon mirrored(Polygon outline) {
 
 }  // namespace
 
-// Giam and Donald (1989), Soil slope stability programs review, ACADS U255: factors of the referees.
+// Giam and Donald (1989), Soil slope stability programs review, ACADS U255: factors of the referees. Those of
+// Rocscience's Slide2 on circles are compared with Bishop's and Spencer's methods one by one.
 TEST_CASE("limit equilibrium finds the referees' factors of the ACADS slopes", "[limit_equilibrium]") {
   SECTION("1(a), one soil: 1.00") {
     const auto found =
@@ -61,12 +62,16 @@ TEST_CASE("limit equilibrium finds the referees' factors of the ACADS slopes", "
     const auto found = surfaces(layers);
     CHECK(found.bishop.factor == Approx(1.39).margin(0.02));
     CHECK(found.spencer->factor == Approx(1.39).margin(0.02));
+    CHECK(found.bishop.factor == Approx(1.405).margin(0.004));  // Slide2
+    CHECK(found.spencer->factor == Approx(1.375).margin(0.004));
     CHECK(found.general->factor <= found.spencer->factor);
   }
   SECTION("1(d), the same in an earthquake: 1.00") {
     const auto found = surfaces(layers, {}, -0.15);
     CHECK(found.bishop.factor == Approx(1.00).margin(0.02));
     CHECK(found.spencer->factor == Approx(1.00).margin(0.02));
+    CHECK(found.bishop.factor == Approx(1.016).margin(0.004));  // Slide2
+    CHECK(found.spencer->factor == Approx(0.991).margin(0.004));
     CHECK(surfaces(layers, {}, 0.15).bishop.factor > 1.5);
   }
   SECTION("3(a), a weak seam, which no circle follows: 1.24 to 1.27") {
