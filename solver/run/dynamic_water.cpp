@@ -74,7 +74,7 @@ void DynamicWater::measure_surface() {
   dynamics_.volume_rates(work_.rates, work_.rate);
   for (std::size_t a = 0; a < p.size(); ++a) {
     surface_.open[a] = std::max(0.0, p.volume(a) * work_.rate[a]);
-    surface_.outlet[a] = stencils_.outlet(p.mass[a] / unit_weight_ * work_.push[a], a, p);
+    surface_.outlet[a] = stencils_.outlet(a);
   }
   surface_.is_known = true;
   find_fixed();
@@ -87,7 +87,7 @@ void DynamicWater::find_fixed() {
   surface_.fixed.assign(n, 0);
   for (std::size_t a = 0; a < n; ++a) {
     const bool loose = flow != nullptr && flow->loose().soil_has_flowed() && flow->loose().is(a);
-    if (!loose && !stencils_.is_pinned(a)) continue;
+    if (!loose && !stencils_.is_pinned(a) && !stencils_.lies_on_free_surface(a)) continue;
     surface_.fixed[a] = 1;
     of_.head[a] = of_.excess[a] = of_.change[a] = 0;
   }

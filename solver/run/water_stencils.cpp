@@ -56,6 +56,8 @@ void WaterStencils::make(const Particles& p) {
                          .flow = flow_of_moved(soils_, walls_, p, spacing_),
                          .pinned = std::vector<std::int32_t>(p.size(), -1)};
   inertia_ = {flow_of_moved(of_inertia_, walls_, p, spacing_), walls_, p.position};
+  find_free_surface(p);
+  slope_ = {};  // as many pairs may be others
   take_slope(p.size());
 }
 
@@ -81,12 +83,25 @@ double WaterStencils::through_faces(std::span<const double> head) const {
   return std::accumulate(through.begin(), through.end(), 0.0);
 }
 
-double WaterStencils::outlet(const Vec2& face, std::size_t a, const Particles& p) const {
-  const double length = face.norm(), half_cell = std::sqrt(p.volume(a) / p.fill[a]) / 2;
-  if (!drainage_ || !has_moved() || length == 0) return 0;
-  const Vec2 normal = face / length;
-  return pores_.ratio(a) * soils_[p.soil[a]].permeability.dot(normal.cwiseProduct(normal)) * length /
-         half_cell;
+/// Half of what surrounds a particle inside is missing there. Its pairs lead as much to it, per gradient, as
+/// is to flow out: that leaves a uniform gradient in balance. Particles inside have no outlet, however
+/// irregular they lie.
+void WaterStencils::find_free_surface(const Particles& p) {
+  constexpr double open = 0.75, whole = 0.75;
+  free_ = {};
+  if (!drainage_) return;
+  const FlowPairs& flow = drainage_->flow.pairs();
+  free_.outlet.assign(p.size(), 0), free_.holds.assign(p.size(), 0);
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    if (flow.enclosed[a] > open) continue;
+    free_.holds[a] = p.fill[a] < whole;
+    Vec2 inwards = Vec2::Zero();
+    for (auto k = flow.begin[a]; k < flow.begin[a + 1]; ++k)
+      inwards += flow.pairs[k].conductance * (p.position[flow.pairs[k].to] - p.position[a]);
+    for (auto k = flow.face_begin[a]; k < flow.face_begin[a + 1]; ++k)
+      inwards += flow.face_pairs[k].conductance * flow.face_pairs[k].x;
+    free_.outlet[a] = inwards.norm() / (std::sqrt(p.volume(a) / p.fill[a]) / 2);
+  }
 }
 
 void WaterStencils::visit(StateArchive& state, const Particles& p) {

@@ -1,6 +1,7 @@
 // What the pore water of soil in motion flows by: the soil as it was drawn, and then as its particles lie.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,9 +26,11 @@ class WaterStencils {
   const SparseRows& slope() const { return slope_; }
   std::span<const double> still_inflow() const { return still_inflow_; }  ///< R(0) [m2/s]
   double through_faces(std::span<const double> head) const;               ///< [m2/s]
-  /// What flows out through a free face of half a cell's depth, per head [m/s]. `face`: its length along the
-  /// normal [m].
-  double outlet(const Vec2& face, std::size_t a, const Particles& particles) const;
+  /// What flows out per head through the free surface of soil that has moved, half a cell above its
+  /// uppermost particles [m/s].
+  double outlet(std::size_t a) const { return free_.outlet.empty() ? 0 : pores_.ratio(a) * free_.outlet[a]; }
+  /// In half a cell on that surface, where the excess head is 0.
+  bool lies_on_free_surface(std::size_t a) const { return !free_.holds.empty() && free_.holds[a] != 0; }
 
   void renew(const Particles& particles);
   /// Permeability goes with the pores, by the volume that each particle has gained [m2]; returns whether it
@@ -36,7 +39,13 @@ class WaterStencils {
   void visit(StateArchive& state, const Particles& particles);  ///< saves or restores all of it
 
  private:
+  /// Of moved soil, each particle.
+  struct FreeSurface {
+    std::vector<double> outlet;  ///< [m/s]
+    std::vector<std::uint8_t> holds;
+  };
   void make(const Particles& as_they_lie);
+  void find_free_surface(const Particles& as_they_lie);
   void take_slope(std::size_t particles);
 
   std::vector<SoilCase> soils_, of_inertia_;  ///< those of the second have gamma_w / rho as permeability
@@ -47,6 +56,7 @@ class WaterStencils {
   PressureStabilisation inertia_;
   SparseRows slope_;
   std::vector<double> still_inflow_;
+  FreeSurface free_;           ///< empty: as drawn, or undrained
   std::vector<Vec2> made_at_;  ///< nothing: as drawn
   std::vector<double> density_then_;
 };

@@ -12,6 +12,10 @@
 namespace porosph {
 namespace {
 
+double smaller_eigenvalue(const Mat2& m) {
+  return (m.trace() - std::hypot(m(0, 0) - m(1, 1), 2 * m(0, 1))) / 2;
+}
+
 class Builder {
  public:
   Builder(const std::vector<SoilCase>& soils, const HydraulicOutline& outline, const Particles& p,
@@ -53,8 +57,9 @@ class Builder {
     for (std::int32_t a = 0; a < n; ++a) {
       out_.begin.push_back(std::ssize(out_.pairs));
       out_.volume.push_back(links_.volume(a));
-      Mat2 second = Mat2::Zero();
+      Mat2 second = Mat2::Zero(), around = Mat2::Zero();
       for (const FlowLink& l : links_.of(a)) {
+        around += l.f * l.x * l.x.transpose();
         const double conductance = share(a, links_.root(l.to)) * conductances_.of(l);
         second += conductance / Conductances::mean(conductances_.permeability(l)) * l.x * l.x.transpose();
         if (l.to < n)
@@ -62,6 +67,7 @@ class Builder {
         else
           out_.face_pairs.push_back(face_pair(l));
       }
+      out_.enclosed.push_back(smaller_eigenvalue(around));
       out_.correction.push_back(correction(a, second / (2 * links_.volume(a))));
       if (as_drawn_) add_to_faces(a);
     }

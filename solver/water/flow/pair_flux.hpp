@@ -42,6 +42,8 @@ struct FlowPairs {
   std::vector<std::int64_t> face_begin;  ///< of each particle's face pairs
   std::vector<double> volume;            ///< of the particles [m2]
   std::vector<Mat2> correction;          ///< of the velocities that their pairs give
+  /// Smaller eigenvalue of sum_b V_b F_ab x (x) x of the particles: 1 inside, 1/2 on a free surface.
+  std::vector<double> enclosed;
   /// Particles that lie on the outline, and the patch that they lie on.
   std::vector<std::int32_t> on_face, patch_of_on_face;
 

@@ -53,6 +53,8 @@ TEST_CASE("pore water is conserved with half cells on the surface, as drawn and 
   if (moved) {
     for (Vec2& x : model.particles.position) x += Vec2(0.02 * std::sin(x.y()), 0.03 * std::sin(2 * x.x()));
     stencils.renew(model.particles);
+    std::swap(model.particles.position[3], model.particles.position[20]);  // as many pairs, but others
+    stencils.renew(model.particles);
   }
 
   const std::size_t n = model.particles.size();
@@ -68,4 +70,31 @@ TEST_CASE("pore water is conserved with half cells on the surface, as drawn and 
   std::vector<double> flow(n);
   stencils.slope().multiply(head, flow);
   CHECK(std::abs(sum(flow)) < 1e-12 * size(flow));
+}
+
+TEST_CASE("water leaves moved soil at its free surface, and nowhere inside", "[water][dynamic]") {
+  Case scene = ground(BoundaryKind::roller);
+  const bool half_cells = GENERATE(false, true);
+  if (!half_cells) scene.particles.arrangement = Arrangement::lattice;
+  Model model = build_model(scene);
+  Particles& p = model.particles;
+  WaterStencils stencils(scene, model);
+  stencils.renew(p);
+  std::vector<double> depth(p.size()), lost(p.size());
+  double top = 0;
+  for (const Vec2& x : p.position) top = std::max(top, x.y() + (half_cells ? 0 : 0.25));
+  for (std::size_t a = 0; a < p.size(); ++a) depth[a] = top - p.position[a].y();
+  stencils.slope().multiply(depth, lost);
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const bool uppermost = depth[a] < 0.3;
+    CHECK(stencils.lies_on_free_surface(a) == (half_cells && uppermost));
+    if (!uppermost) CHECK(stencils.outlet(a) == 0);
+    // The critical gradient passes through as it comes.
+    if (uppermost && !half_cells) CHECK(stencils.outlet(a) * depth[a] == Approx(-lost[a]).epsilon(1e-6));
+  }
+  Noise noise(2);
+  for (Vec2& x : p.position) x += 0.15 * scene.particles.spacing * noise.vector();
+  stencils.renew(p);
+  for (std::size_t a = 0; a < p.size(); ++a)
+    if (depth[a] > 0.6) CHECK(stencils.outlet(a) == 0);
 }
