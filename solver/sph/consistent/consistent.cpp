@@ -105,7 +105,7 @@ void ConsistentDynamics::connect_arrays() {
                      .rate = control_.spring.of_soils().data(),
                      .bulk_length = bulk_viscosity_of(formulation_, model_) * model_.smoothing_length};
   if (flow_.active()) {
-    arrays_.diffusion = flow_.diffusion().view();
+    arrays_.diffusion = flow_.diffusion().view(p);
     arrays_.flow = {.viscosity = flow_.viscosity().data(),
                     .sheared = flow_.diffusion().sheared(),
                     .bears = flow_.loose().bears(),
@@ -200,6 +200,7 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
   const Particles& p = model_.particles;
   if (!since_.of_excess) since_.of_excess = Fluxes::of_pressures(reference_);
+  flow_.move_water();
   since_.of_excess->take_pressures_alone(reference_, p.fill, fluxes_, excess);
   ConsistentArrays arrays = arrays_;
   since_.of_excess->connect(arrays, reference_);

@@ -9,10 +9,9 @@ namespace {
 
 /// L of eq. (10) by the soil alone.
 Mat2 correction_by_soil(const ReferenceConfiguration& r, std::int32_t a) {
-  const auto n = static_cast<std::int32_t>(r.particles());
   Mat2 sum = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
-    if (b < n) sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
+    if (is_soil(r, b)) sum += Vec2(g.x, g.y) * (r.points[b] - r.points[a]).transpose();
   });
   return correction_matrix(sum);
 }
@@ -35,7 +34,7 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
       const bool fixed = is_fixed_image(r, b);
       sees_fixed_[a] |= fixed;
       if (!fixed) ++neighbours_[a];
-      if (b < n) ++in_soil_[a];
+      if (is_soil(r, b)) ++in_soil_[a];
     });
     correction_[a] = correction_by_soil(r, a);
   }
@@ -47,7 +46,7 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
 void RowsAtWalls::blind(const LooseParticles& loose) {
   blind_.assign(neighbours_.size(), 0);
   for (std::size_t a = 0; a < blind_.size(); ++a)
-    blind_[a] = sees_fixed_[a] && (in_soil_[a] >= LooseParticles::fewest_neighbours || loose.is(a));
+    blind_[a] = sees_fixed_[a] && (in_soil_[a] >= loose.fewest_neighbours() || loose.is(a));
 }
 
 RowsAtWalls::Gradients RowsAtWalls::gradients(const ReferenceConfiguration& r, std::span<const Vec2> v,
@@ -56,10 +55,9 @@ RowsAtWalls::Gradients RowsAtWalls::gradients(const ReferenceConfiguration& r, s
   Mat2 soil = Mat2::Zero(), walls = Mat2::Zero();
   r.stencils.for_neighbours(a, [&](std::int32_t b, const PairGeometry& g) {
     const Eigen::RowVector2d way(g.x, g.y);
-    if (b < n)
-      soil += (v[b] - v[a]) * way;
-    else
-      walls += (r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(v[r.ghosts.root(b - n)])) - v[a]) * way;
+    const Vec2 other =
+        b < n ? v[b] : r.ghosts.from_root<Mirrors::motion>(b - n, Vec2(v[r.ghosts.root(b - n)]));
+    (is_soil(r, b) ? soil : walls) += (other - v[a]) * way;
   });
   return {soil * correction_[a].transpose(), (soil + walls) * r.correction[a].transpose()};
 }

@@ -28,7 +28,7 @@ class RowsAtWalls {
   bool is_blind(std::size_t a) const { return blind_[a] != 0; }
 
   struct Gradients {
-    Mat2 own, with_walls;  ///< by the soil alone, and by ghosts as well
+    Mat2 own, with_walls;  ///< by the soil alone, and by images in walls as well
   };
   Gradients gradients(const ReferenceConfiguration& reference, std::span<const Vec2> velocities,
                       std::int32_t a) const;  ///< of the velocity of particle a [1/s]
@@ -52,6 +52,13 @@ class RowsAtWalls {
   std::vector<std::int32_t> particles_;  ///< of flowing soil, that see fixed images
   std::vector<Gradients> gradient_;      ///< of each of those
 };
+
+/// Whether point b is soil: a particle, or its image at a periodic side, where the soil goes on.
+inline bool is_soil(const ReferenceConfiguration& r, std::int32_t b) {
+  const std::size_t n = r.particles();
+  if (static_cast<std::size_t>(b) < n) return true;
+  return r.ghosts.wall(b - n).is_periodic() && is_soil(r, r.ghosts.image(b - n).parent);
+}
 
 /// Whether point b is an image in a wall that holds soil fast, or what goes on of one at a periodic side.
 inline bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "solver/space/parallel.hpp"
+#include "solver/sph/consistent/rows_at_walls.hpp"
 
 namespace porosph {
 namespace {
@@ -26,7 +27,12 @@ void StressDiffusion::take(const ReferenceConfiguration& r, const Model& model, 
   length_squared_ = model.smoothing_length * model.smoothing_length;
   near_.assign(n, 0);
   correction_.assign(correction.begin(), correction.end());
-  gradient_.assign(2 * n, Stress{});
+  goes_on_.clear();
+  for (std::size_t i = n; i < r.points.size(); ++i)
+    if (is_soil(r, static_cast<std::int32_t>(i))) goes_on_.push_back({i, r.ghosts.root(i - n)});
+  for (const auto& [ghost, root] : goes_on_) soil_[ghost] = soil_[root];
+  stress_.assign(goes_on_.empty() ? 0 : r.points.size(), Stress{});
+  gradient_.assign(2 * (goes_on_.empty() ? n : r.points.size()), Stress{});
   change_.assign(n, Stress{});
 }
 
@@ -39,6 +45,7 @@ bool StressDiffusion::take_strain() {
     diffusivity_[a] = shears ? share * length_squared_ : 0;
     has_sheared_[a] |= shears, any = any || shears;
   }
+  for (const auto& [ghost, root] : goes_on_) diffusivity_[ghost] = diffusivity_[root];
   return any;
 }
 
@@ -47,9 +54,13 @@ double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, co
   ++steps_;
   if (!due || !take_strain()) return 0;
   Particles& p = model.particles;
+  if (!goes_on_.empty()) std::ranges::copy(p.stress, stress_.begin());
+  for (const auto& [ghost, root] : goes_on_) stress_[ghost] = p.stress[root];
   const std::int32_t tiles = c.reference.stencils->tiles();
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < tiles; ++tile) kernels.stress_gradients(c, tile);
+  for (const auto& [ghost, root] : goes_on_)
+    for (int d = 0; d < 2; ++d) gradient_[2 * ghost + d] = gradient_[2 * root + d];
 #pragma omp parallel for schedule(static)
   for (std::int32_t tile = 0; tile < tiles; ++tile) kernels.diffuse(c, tile);
   const auto energy = [&] {
@@ -64,8 +75,10 @@ double StressDiffusion::apply(Model& model, const ConsistentKernels& kernels, co
   return counted ? steps_between_counts / steps_between * (before - energy()) : 0;
 }
 
-StressDiffusionView StressDiffusion::view() {
+StressDiffusionView StressDiffusion::view(const Particles& p) {
+  const std::vector<Stress>& stress = stress_.empty() ? p.stress : stress_;
   return {.soil = soil_.data(),
+          .stress = stress.empty() ? nullptr : &stress.data()->xx,
           .diffusivity = diffusivity_.data(),
           .most = most * length_squared_,
           .near = near_.data(),

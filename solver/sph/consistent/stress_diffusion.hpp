@@ -16,7 +16,7 @@ namespace porosph {
 
 /// What of the stress is not linear from particle to particle is diffused with D = 10 h^2 times the shear
 /// rate of the soil that yields: the law's return leaves an alternation that no velocity gradient sees.
-/// Particles of one soil share their stress; loose ones have none.
+/// Particles of one soil share their stress, across periodic sides as well; loose ones have none.
 class StressDiffusion {
  public:
   static constexpr int steps_between = 2;  ///< what they shear is diffused at once
@@ -37,10 +37,15 @@ class StressDiffusion {
   bool has_sheared(std::size_t particle) const { return has_sheared_[particle] != 0; }
   bool has_sheared() const { return std::ranges::find(has_sheared_, 1) != has_sheared_.end(); }
   void forget_shear() { std::ranges::fill(has_sheared_, 0); }
-  StressDiffusionView view();
+  StressDiffusionView view(const Particles& particles);
   void visit(StateArchive& state);
 
  private:
+  /// A ghost at a periodic side, where the soil goes on.
+  struct GoesOn {
+    std::size_t ghost;
+    std::int32_t root;
+  };
   bool take_strain();
 
   std::vector<double> sheared_;
@@ -49,7 +54,9 @@ class StressDiffusion {
   std::vector<double> diffusivity_;  ///< and ghost
   std::vector<std::uint8_t> near_;
   std::vector<Mat2> correction_;
-  std::vector<Stress> gradient_;  ///< along x, then along y, of each particle [Pa/m]
+  std::vector<GoesOn> goes_on_;
+  std::vector<Stress> stress_;    ///< of particles and ghosts where soil goes on, or else of none [Pa]
+  std::vector<Stress> gradient_;  ///< along x, then along y, of each particle, and ghost [Pa/m]
   std::vector<Stress> change_;    ///< [Pa]
   double length_squared_ = 0;
   std::int64_t steps_ = 0;

@@ -110,11 +110,12 @@ struct FlowView {
 /// Diffusion of stress where soil flows: see StressDiffusion.
 struct StressDiffusionView {
   const std::int32_t* soil;   ///< and ghost; particles of one number share their stress, those below 0 do not
+  const double* stress;       ///< effective, and ghost that shares it, stress_size numbers each [Pa]
   const double* diffusivity;  ///< D dt of the last step, and ghost; 0 where nothing shears [m2]
   double most;                ///< of the mean D dt of two particles [m2]
   std::uint8_t* near;         ///< 1 where D is not 0 at a particle or one that shares its stress
   const double* correction;   ///< L by the soil alone, a matrix each, column by column
-  double* gradient;           ///< of the stress along each axis, stress_size numbers each [Pa/m]
+  double* gradient;           ///< of the stress along each axis, and ghost, stress_size numbers each [Pa/m]
   double* change;             ///< stress_size numbers each [Pa]
 };
 

@@ -71,7 +71,7 @@ template <class Space>
 void stress_gradients(const ConsistentArraysIn<Space>& c, const TileRange& tile) {
   constexpr int dim = Space::dim, size = stress_size<Space>;
   using Lanes = typename StressLanes<Space>::Type;
-  const double* stress = c.state.stress;
+  const double* stress = c.diffusion.stress;
   for_each_with_pairs(*c.reference.stencils, tile, [&](const auto* pairs, std::int32_t a) {
     const bool near = is_near(c, pairs, a);
     c.diffusion.near[a] = near;
@@ -97,7 +97,7 @@ template <class Space>
 void diffuse(const ConsistentArraysIn<Space>& c, const TileRange& tile) {
   constexpr int dim = Space::dim, size = stress_size<Space>;
   using Lanes = typename StressLanes<Space>::Type;
-  const double *stress = c.state.stress, *gradients = c.diffusion.gradient;
+  const double *stress = c.diffusion.stress, *gradients = c.diffusion.gradient;
   const double *diffusivity = c.diffusion.diffusivity, most = 2 * c.diffusion.most;
   for_each_with_pairs(*c.reference.stencils, tile, [&](const auto* pairs, std::int32_t a) {
     if (!c.diffusion.near[a]) return;

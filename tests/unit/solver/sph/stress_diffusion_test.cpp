@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include "tests/box_of_soil.hpp"
 
@@ -15,8 +16,10 @@ constexpr double spacing = 0.5;
 
 /// A square of soil that yields, all of which has been sheared by `strain`.
 struct Sheared {
-  explicit Sheared(double strain) {
+  explicit Sheared(double strain, bool goes_on = false) {
     Case scene = box_of_soil(rows, rows, spacing);
+    for (const double x : {0.0, rows * spacing})
+      if (goes_on) add_wall(scene, BoundaryKind::periodic, {x, 0}, {x, rows * spacing});
     scene.soils[0].law = LawKind::drucker_prager;
     scene.soils[0].strength = {.cohesion = 1e3, .friction_angle = 30};
     model = build_model(scene);
@@ -37,7 +40,7 @@ struct Sheared {
     ConsistentArrays arrays{};
     arrays.reference = reference.view(model.particles);
     arrays.state.stress = &model.particles.stress.data()->xx;
-    arrays.diffusion = diffusion.view();
+    arrays.diffusion = diffusion.view(model.particles);
     double lost = 0;
     for (int step = 0; step < StressDiffusion::steps_between; ++step)
       lost += diffusion.apply(model, consistent_kernels(vector_units()), arrays);
@@ -117,4 +120,26 @@ TEST_CASE("soils do not share their stress") {
   soil.diffusion.take(soil.reference, soil.model, soil.loose, correction);
   soil.diffuse();
   for (std::size_t a = 0; a < p.size(); ++a) CHECK(p.stress[a].xx == (p.soil[a] == 1 ? 100 : 0));
+}
+
+TEST_CASE("across periodic sides stress diffuses as it does inside") {
+  const auto diffused = [](int shift) {
+    Sheared soil(0.004, true);
+    soil.give([&](double x, double y) {
+      const long column = (std::lround(x / spacing - 0.5) + shift) % rows,
+                 row = std::lround(y / spacing - 0.5);
+      const auto mixed = static_cast<double>((17 * column * column + 29 * row + 7 * column * row) % 41);
+      return Stress{10 * mixed, -5 * mixed, 0, mixed};
+    });
+    soil.diffuse();
+    std::map<std::pair<long, long>, double> at;
+    for (std::size_t a = 0; a < soil.size(); ++a) {
+      const Vec2& x = soil.model.particles.position[a];
+      at[{(std::lround(x.x() / spacing - 0.5) + shift) % rows, std::lround(x.y() / spacing - 0.5)}] =
+          soil.model.particles.stress[a].xx;
+    }
+    return at;
+  };
+  const auto here = diffused(0), shifted = diffused(3);
+  for (const auto& [place, stress] : here) CHECK(shifted.at(place) == Approx(stress).margin(1e-9));
 }
