@@ -99,12 +99,25 @@ void draw_footing(const Workplace& place) {
   }
 }
 
+/// Loose sand before, while and after it has liquefied, by the commands of shaking.md.
+void draw_liquefaction(const Workplace& place) {
+  for (const char* line :
+       {"run '" POROSPH_SOURCE_DIR
+        "/cases/failure/liquefaction.toml' --quiet --threads 1 --out results/liquefaction",
+        "render results/liquefaction --field PorePressureRatio --time 2 --time 6 --time 15 "
+        "--time 25"}) {
+    CAPTURE(line);
+    REQUIRE(place.porosph(line).status == 0);
+  }
+}
+
 std::vector<DrawnPicture> draw_all(const Workplace& place) {
   draw_foundation(place);
   draw_collapse(place);
   draw_tutorial(place);
   draw_levee(place);
   draw_footing(place);
+  draw_liquefaction(place);
   const fs::path& f = place.folder();
   return {{"foundation.png", f / "foundation/TotalStress_YY.png"},
           {"column_collapse.png", f / "results/column_collapse/PlasticStrain.png"},
@@ -112,7 +125,8 @@ std::vector<DrawnPicture> draw_all(const Workplace& place) {
           {"tutorial_history.png", f / "results/my_slope_report/history.png"},
           {"tutorial_drawdown.png", f / "results/drawdown/EffectiveStress_YY.png"},
           {"tutorial_levee_water.png", f / "results/levee_water.png"},
-          {"footing_on_sand.png", f / "results/footing/PlasticStrain.png"}};
+          {"footing_on_sand.png", f / "results/footing/PlasticStrain.png"},
+          {"liquefaction.png", f / "results/liquefaction/PorePressureRatio.png"}};
 }
 
 /// Of red, green and blue over all pixels, of 255.
