@@ -57,7 +57,6 @@ void WaterStencils::make(const Particles& p) {
                          .pinned = std::vector<std::int32_t>(p.size(), -1)};
   inertia_ = {flow_of_moved(of_inertia_, walls_, p, spacing_), walls_, p.position};
   find_free_surface(p);
-  slope_ = {};  // as many pairs may be others
   take_slope(p.size());
 }
 

@@ -74,7 +74,7 @@ std::vector<double> DarcyFlow::permeabilities(std::span<const double> head) cons
 
 void DarcyFlow::assemble(std::span<const double> head, const FaceConditions& faces, Slope kind,
                          SparseRows& slope, std::span<double> inflow) const {
-  if (slope.column.size() != pattern_.column.size()) slope = pattern_;
+  if (slope.begin != pattern_.begin || slope.column != pattern_.column) slope = pattern_;
   slope.value.assign(pattern_.column.size(), 0);
   slope.diagonal.assign(particles(), 0);
   std::vector<Retention::Permeability> kr(particles());
