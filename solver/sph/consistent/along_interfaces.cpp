@@ -38,10 +38,9 @@ class AlongInterfaces::Builder {
     return kind[soil(a)] == kind[soil(b)];
   }
   bool differ_much(std::int32_t a, std::int32_t b) const {
-    constexpr double much = 30;  // docs/theory.md says what it changes
     const double of_a = model_.soils[soil(a)].constrained_modulus(),
                  of_b = model_.soils[soil(b)].constrained_modulus();
-    return std::max(of_a, of_b) >= much * std::min(of_a, of_b);
+    return std::max(of_a, of_b) >= much_stiffer * std::min(of_a, of_b);
   }
   Vec2 kappa_between(std::int32_t a, std::int32_t b) const {
     return r_.closed() ? Vec2(r_.kappa[b] - r_.kappa[a]) : Vec2(Vec2::Zero());

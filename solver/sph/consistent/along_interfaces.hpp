@@ -9,6 +9,10 @@
 
 namespace porosph {
 
+/// Ratio of moduli from which soils are summed apart along their interface: docs/theory.md has what it
+/// changes.
+constexpr double much_stiffer = 30;
+
 /// The bend c of a displacement where soils meet varies along the interface. A sum over both sides takes this
 /// for a strain along it, of the order of dx times the gradient of the strain; in the stiffer soil that is
 /// the contrast times what there is. So the derivative along the interface, with its tangent t, is summed

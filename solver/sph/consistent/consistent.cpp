@@ -80,6 +80,7 @@ void ConsistentDynamics::rebuild_reference() {
   counts.closures += reference_.closed() ? 1 : 0;
   soils_.set_own_sides(reference_.own_sides.place);
   control_.spring = ZeroEnergySpring(formulation, model_, control_.rho_c, control_.cells_are_cut, reference_);
+  control_.hold = InterfaceHold(reference_, model_);
   const bool asked = control_.spring.active() || !reference_.own_sides.empty() || flow_.active();
   since_.yields.assign(asked ? model_.particles.size() : 0, 0);
   if (flow_.active()) flow_.take(reference_, model_);
@@ -161,6 +162,7 @@ void ConsistentDynamics::accelerations(std::span<Vec2> out) {
     kernels_.accelerate(arrays_, tile, out.data()->data());
   if (friction_.active() && flow_.active()) friction_.sample(reference_, model_.particles);
   fluxes_.add_along_interfaces(reference_, model_.particles, out);
+  control_.hold.add_forces(reference_, model_.particles, out);
   add_contact(model_, surroundings_.strangers(model_), out);
   if (flow_.active()) {
     flow_.leave_out_walls(reference_, model_.particles, out);

@@ -5,6 +5,7 @@
 
 #include "solver/sph/consistent/flowing_soil.hpp"
 #include "solver/sph/consistent/fluxes.hpp"
+#include "solver/sph/consistent/interface_hold.hpp"
 #include "solver/sph/consistent/reference.hpp"
 #include "solver/sph/consistent/wall_friction.hpp"
 #include "solver/sph/dynamics.hpp"
@@ -60,6 +61,7 @@ class ConsistentDynamics final : public Dynamics {
     double viscosity;  ///< its mu [Pa s]
     bool cells_are_cut;
     ZeroEnergySpring spring = {};
+    InterfaceHold hold = {};
   };
   struct SinceReference {
     double strain = 0;                ///< the largest |F - I|

@@ -209,6 +209,34 @@ TEST_CASE("walls hold stiff bodies", "[inertia]") {
   }
 }
 
+TEST_CASE("stiff soil alone is damped, by a tenth of what its acceleration changed", "[inertia]") {
+  const Case scene = free_block();
+  const Model model = build_model(scene);
+  ScaledInertia inertia(scene, model);
+  const std::size_t n = model.particles.size();
+  const std::vector<Vec2> before = random_field(n, 1), now = random_field(n, 2);
+  inertia.take_step(before);
+  const std::span<const Vec2> taken = inertia.take_step(now);
+  std::vector<Vec2> expected = now;
+  for (std::size_t i = 0; i < n; ++i)
+    if (model.particles.soil[i] == 1) expected[i] += 0.1 * (now[i] - before[i]);
+  inertia.scale(expected);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (model.particles.soil[i] == 0) CHECK(taken[i] == now[i]);
+    CHECK((taken[i] - expected[i]).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("the time step resolves the fastest vibration of scaled inertia", "[inertia][time]") {
+  Case scene = blocks_on_ground();
+  scene.time.courant = 0.9;
+  const Simulation s(scene);
+  REQUIRE(s.inertia().acts());
+  const double angle = s.time_step() * highest_frequency(s.scene().formulation, s.model(), s.inertia());
+  CHECK(angle < 1.7 * scene.time.courant * (1 + 1e-3));
+  CHECK(s.courant() < scene.time.courant);
+}
+
 TEST_CASE("a run with scaled inertia goes on to the same bits from any step", "[inertia][resume]") {
   const Case scene = blocks_on_ground();
   Simulation through(scene), resumed(scene);
