@@ -71,7 +71,7 @@ std::vector<std::size_t> choose_frames(const Series& series, const std::vector<s
                                       : frame_at(series, read_number("--time", time)));
   }
   std::ranges::sort(frames);
-  frames.erase(std::ranges::unique(frames).begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }
 

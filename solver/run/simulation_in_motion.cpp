@@ -116,7 +116,7 @@ void Simulation::visit_motion(StateArchive& state) {
   bool counts_energy = motion_.energy_when_lost.has_value();
   state.value("counts_energy", counts_energy);
   if (counts_energy) {
-    if (state.restoring()) motion_.energy_when_lost.emplace();
+    if (state.restoring()) motion_.energy_when_lost = Summary::EnergyBudget{};
     std::span<Summary::EnergyBudget> counts(&*motion_.energy_when_lost, 1);
     state.array("energy_when_lost", counts);
     state.value("given_by_loads", motion_.given_by_loads);

@@ -31,7 +31,7 @@ void BiotEquations::set(double tau) {
   const auto add = [&](const Eigen::SparseMatrix<double>& m, double factor, auto&& row_of, auto&& column_of) {
     for (Eigen::Index k = 0; k < m.outerSize(); ++k)
       for (Eigen::SparseMatrix<double>::InnerIterator it(m, k); it; ++it) {
-        const auto row = row_of(it), column = column_of(it);
+        const auto row = static_cast<int>(row_of(it)), column = static_cast<int>(column_of(it));
         if (column >= 0 && row >= column) lower.emplace_back(row, column, factor * it.value());
       }
   };
