@@ -1,4 +1,4 @@
-// A slope that rain lets slide, with half of the shipped case's particles in each direction.
+// A slope that rain lets slide: the shipped case, with less time in motion.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double hour = 3600, motion_time = 4;
 
-Case slope() { return scene("failure/rain_slide", {"particles.spacing=1", "water.motion_time=4"}); }
+Case slope() { return scene("failure/rain_slide", {"water.motion_time=4"}); }
 
 }  // namespace
 
@@ -39,7 +39,8 @@ TEST_CASE("rain lets a slope slide, and its history continues", "[water][dynamic
 TEST_CASE("a slide continues to the same bits from a kept state", "[water][dynamic]") {
   Simulation first(slope()), second(slope());
   first.begin();
-  while (!first.in_motion() && !first.instability()) first.advance();
+  while (!first.in_motion() && first.step() < first.last_step()) first.advance();
+  REQUIRE(first.in_motion());
   for (int k = 0; k < 100; ++k) first.advance();
   KeptState(first).restore(second);
   for (int k = 0; k < 100; ++k) first.advance(), second.advance();

@@ -202,7 +202,6 @@ void ConsistentDynamics::velocity_gradients(std::span<Mat2> out) {
 void ConsistentDynamics::excess_accelerations(std::span<const double> excess, std::span<Vec2> out) {
   const Particles& p = model_.particles;
   if (!since_.of_excess) since_.of_excess = Fluxes::of_pressures(reference_);
-  flow_.move_water();
   since_.of_excess->take_pressures_alone(reference_, p.fill, fluxes_, excess);
   ConsistentArrays arrays = arrays_;
   since_.of_excess->connect(arrays, reference_);

@@ -142,7 +142,7 @@ void FlowingSoil::even_out(Model& model, const ReferenceConfiguration& r) {
 void FlowingSoil::take(const ReferenceConfiguration& r, const Model& model) {
   viscosity_.resize(r.points.size());
   rows_.find(r, model);
-  loose_.take(model, rows_.neighbours(), rows_.see_ghosts(), has_flowed_, moves_water_);
+  loose_.take(model, rows_.neighbours(), rows_.see_ghosts(), has_flowed_);
   rows_.blind(loose_);
   wall_work_.take(rows_.see_ghosts());
   diffusion_.take(r, model, loose_, rows_.correction());
@@ -171,7 +171,6 @@ void FlowingSoil::visit(StateArchive& state) {
   state.array("control_viscosity", std::span(viscosity_).first(rest_density_.size()));
   diffusion_.visit(state);
   state.value("has_flowed", has_flowed_);
-  state.value("moves_water", moves_water_);
   state.value("control_samples", sample_.steps);
   loose_.walls().visit(state);
   wall_work_.visit(state);

@@ -28,9 +28,6 @@ class FlowingSoil {
   bool active() const { return !rest_density_.empty(); }
   bool has_flowed() const { return has_flowed_; }  ///< since the start a reference has been rebuilt
 
-  /// Its water moves with it, and has an excess pressure.
-  void move_water() { moves_water_ = true; }
-
   /// Before a reference is rebuilt: density by the law, and particles moved to even out their arrangement.
   void settle(Model& model, const ReferenceConfiguration& reference);
   /// After that: what sums over the soil alone need.
@@ -100,7 +97,7 @@ class FlowingSoil {
   LooseParticles loose_;
   WallWork wall_work_;
   ForceSample sample_;  ///< of the control
-  bool has_flowed_ = false, moves_water_ = false;
+  bool has_flowed_ = false;
   Work work_;
 };
 

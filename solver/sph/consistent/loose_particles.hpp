@@ -15,21 +15,20 @@ namespace porosph {
 /// neighbours carry it along by the zero-energy control, and walls stop and hold it.
 class LooseParticles {
  public:
-  static constexpr int usual_fewest = 7;  ///< neighbours of the soil that a particle of the body has
+  /// Of the soil, that a particle of the body has with a smoothing length of 1.2 spacings. There are fewer
+  /// where the kernel reaches less far: with one spacing a row on a wall or a free surface has 5.
+  static constexpr int fewest_neighbours = 7;
   /// How near to walls they come, in spacings: at half of one the soil of a loose particle ends. Soil of the
   /// body that has opened bears nothing until that has closed, and could sink through.
   static constexpr double loose_ends = 0.5, body_ends = 0.25;
   static constexpr double nearest = 0.2;  ///< evening out moves none nearer than that
 
   /// Those of a new reference, by how many particles of the soil each has as neighbours, and whether it has
-  /// ghosts among them. `moves_water`: with its excess pressure. None before soil flows, nor of a law whose
-  /// stiffness follows its state, which cannot be without stress.
+  /// ghosts among them. None before soil flows, nor of a law whose stiffness follows its state, which cannot
+  /// be without stress.
   void take(const Model& model, std::span<const std::int32_t> neighbours,
-            std::span<const std::uint8_t> at_walls, bool flows, bool moves_water = false);
+            std::span<const std::uint8_t> at_walls, bool flows);
 
-  /// With an excess pressure fewer than usual where the kernel reaches less far than 1.2 spacings do: at one
-  /// spacing a row on a wall or a free surface has 5, and its water would go.
-  int fewest_neighbours() const { return fewest_; }
   bool soil_has_flowed() const { return flows_; }
   bool is(std::size_t particle) const { return bears_[particle] == 0; }
   const double* bears() const { return bears_.data(); }  ///< as in FlowView
@@ -41,7 +40,6 @@ class LooseParticles {
   std::vector<double> bears_;  ///< 1, or 0 for those that are loose
   WallStop walls_;
   bool flows_ = false;
-  int fewest_ = usual_fewest;
 };
 
 }  // namespace porosph

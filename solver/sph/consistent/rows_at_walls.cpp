@@ -46,7 +46,7 @@ void RowsAtWalls::find(const ReferenceConfiguration& r, const Model& model) {
 void RowsAtWalls::blind(const LooseParticles& loose) {
   blind_.assign(neighbours_.size(), 0);
   for (std::size_t a = 0; a < blind_.size(); ++a)
-    blind_[a] = sees_fixed_[a] && (in_soil_[a] >= loose.fewest_neighbours() || loose.is(a));
+    blind_[a] = sees_fixed_[a] && (in_soil_[a] >= LooseParticles::fewest_neighbours || loose.is(a));
 }
 
 RowsAtWalls::Gradients RowsAtWalls::gradients(const ReferenceConfiguration& r, std::span<const Vec2> v,

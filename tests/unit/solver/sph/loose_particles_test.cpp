@@ -55,15 +55,13 @@ TEST_CASE("particles with few neighbours are loose where soil has flowed") {
   CHECK_FALSE(scene.loose.is(0));
 }
 
-TEST_CASE("soil with excess pressure keeps a row on a wall where the kernel reaches one spacing alone") {
+TEST_CASE("a row on a wall is of the body where the smoothing length is one spacing") {
   OnWall scene(BoundaryKind::fixed);
   scene.model.smoothing_length = scene.model.spacing;
   scene.neighbours = {4, 5, 5, 7};
-  for (const bool moves_water : {false, true}) {
-    scene.loose.take(scene.model, scene.neighbours, scene.at_walls, true, moves_water);
-    CHECK(scene.loose.is(0));
-    CHECK(scene.loose.is(1) != moves_water);
-  }
+  scene.loose.take(scene.model, scene.neighbours, scene.at_walls, true);
+  CHECK(scene.loose.is(0));
+  CHECK_FALSE(scene.loose.is(1));
 }
 
 TEST_CASE("a wall stops a loose particle without rebound and holds it by the soil's friction") {
