@@ -320,8 +320,11 @@ int run_command(const Arguments& arguments) {
   Summary summary = summarise(stages, outcome, recorder.wall_seconds());
   summary.finite_elements = check_by_fem(stages.simulation(), summary);
   summary.warnings = warnings;
+  const std::vector<std::string> of_end = warnings_of_end(stages.simulation());
+  summary.warnings.insert(summary.warnings.end(), of_end.begin(), of_end.end());
   results.finish(summary, recorder.state(so_far));
   if (!options->quiet) say(stdout, tell(summary));
+  warn(of_end);
   warn_of_differences(summary);
   if (outcome.status == RunStatus::unstable && options->quiet)
     std::cerr << "porosph: unstable: " << outcome.message << '\n';

@@ -67,6 +67,16 @@ std::vector<std::string> warnings_of(const Model& model, const Case& scene) {
   return warnings;
 }
 
+std::vector<std::string> warnings_of_end(const Simulation& s) {
+  const double spacing = s.scene().particles.spacing, moved = s.largest_displacement();
+  if (s.seepage() == nullptr || s.in_motion() || s.instability() || moved < spacing) return {};
+  return {
+      fmt::format("soil has moved by up to {:.3g} m, more than the spacing of {:g} m, and yet came to rest "
+                  "at every output: "
+                  "it may have slid. Smaller particles may show that it loses its equilibrium",
+                  moved, spacing)};
+}
+
 void warn(const std::vector<std::string>& warnings) {
   for (const std::string& text : warnings) std::cerr << "porosph: warning: " << text << '\n';
 }

@@ -1,4 +1,4 @@
-// Warnings before a run starts.
+// Warnings before a run starts, and of what it has come to.
 #pragma once
 
 #include <iostream>
@@ -15,6 +15,9 @@ std::vector<std::string> warnings_of(const Case& scene);
 
 /// What its particles tell besides: a lattice that misses the drawn volume, water that wets no particle.
 std::vector<std::string> warnings_of(const Model& model, const Case& scene);
+
+/// What the state at the end tells: soil in seepage over time that may have slid, though it rests.
+std::vector<std::string> warnings_of_end(const Simulation& simulation);
 
 /// Says them on standard error.
 void warn(const std::vector<std::string>& warnings);

@@ -167,7 +167,7 @@ struct Summary {
   };
   std::vector<Stage> stages;                   ///< that have been computed; empty where the case has none
   std::optional<FemCheck> finite_elements;     ///< what the run is held against by itself
-  std::vector<std::string> warnings;           ///< that the run began with
+  std::vector<std::string> warnings;           ///< of how it began and what it came to
   std::map<std::string, std::string> skipped;  ///< what the scene did not need -> why
 };
 
