@@ -192,7 +192,7 @@ void draw_rollers(Canvas& canvas, const DrawnWall& wall) {
   canvas.line(wall.at(0, offset), wall.at(wall.length, offset), {.colour = outline_grey});
 }
 
-/// A dashed line: the soil goes on.
+/// A dashed line: the soil continues.
 void draw_periodic(Canvas& canvas, const DrawnWall& wall) {
   const std::vector<Pixel> line = {wall.from, wall.to};
   canvas.line(line, {.colour = outline_grey, .width = 1.6, .dashes = {7, 4}});

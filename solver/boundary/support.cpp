@@ -17,7 +17,7 @@ class Fixed final : public Support {
   bool carries_shear() const override { return true; }
 };
 
-/// The soil goes on behind it as it begins at the other side.
+/// The soil continues behind it as it begins at the other side.
 class Periodic final : public Support {
  public:
   Mat2 mirrored_motion(const Vec2&) const override { return Mat2::Identity(); }

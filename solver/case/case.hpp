@@ -141,7 +141,7 @@ enum class BoundaryKind {
   roller,    ///< free to slide along the segment, no motion across it (mirrored ghost particles)
   fixed,     ///< no motion at all (virtual particles)
   friction,  ///< as a roller, but the soil slides along it against friction only
-  periodic,  ///< one of two upright sides, behind each of which the soil goes on as it begins at the other
+  periodic,  ///< one of two upright sides, behind each of which the soil continues as it begins at the other
 };
 struct BoundaryCase {
   BoundaryKind kind = BoundaryKind::fixed;

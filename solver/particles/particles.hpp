@@ -41,8 +41,8 @@ struct Particles {
     return uncounted.empty() ? moved : Vec2(moved - uncounted[i]);
   }
 
-  /// Calls use(name, values) for every array that changes from step to step: all that must be kept to go on
-  /// from a state. The rest the case gives.
+  /// Calls use(name, values) for every array that changes from step to step: all that must be kept to
+  /// continue from a state. The rest the case gives.
   template <class Use>
   void for_each_changing(Use&& use) {
     use("position", position);

@@ -138,7 +138,7 @@ void Consolidation::solve_flow(std::span<const double> known, double tau) {
   }
 }
 
-/// Places and heads go on as through the last rests: a polynomial in time.
+/// Places and heads continue as through the last rests: a polynomial in time.
 void Consolidation::guess() {
   const std::size_t count = rests_.size();
   if (count < 2) return;

@@ -11,8 +11,8 @@ class KeptState {
  public:
   explicit KeptState(Simulation& simulation);
 
-  /// Puts another simulation of the same case into this state, which the simulation goes on from to the same
-  /// bits. Strength that was reduced is not part of it. Throws StateError where the case is another.
+  /// Puts another simulation of the same case into this state, from which it continues to the same bits.
+  /// Strength that was reduced is not part of it. Throws StateError where the case is another.
   void restore(Simulation& simulation) const;
 
   bool operator==(const KeptState&) const = default;

@@ -12,7 +12,7 @@
 namespace porosph {
 
 /// Dynamic relaxation under the effective stress and the excess pressure p_e, which act as one stress:
-/// P = J (sigma' + p_e I) F^-T. The soil's own velocity goes on from one call to the next.
+/// P = J (sigma' + p_e I) F^-T. The soil's own velocity carries over from one call to the next.
 class RestingSoil {
  public:
   /// `dt` of the relaxation [s].

@@ -81,7 +81,7 @@ class Simulation {
   std::optional<double> drained() const;
   /// Whether time is counted by a flow, whose steps are as long as it allows.
   bool follows_flow() const { return static_cast<bool>(flow_); }
-  /// Whether the soil is at rest all the while in that flow: until it fails, where the case goes on from
+  /// Whether the soil is at rest all the while in that flow: until it fails, where the case continues from
   /// there.
   bool rests_in_flow() const { return follows_flow() && !motion_.now; }
   /// Whether a frame and a row are due now of soil that has failed and moves.
@@ -124,11 +124,11 @@ class Simulation {
   /// only in appearance.
   void remember();
   /// Puts the older of the remembered states in the place of the present one, and the present one in its
-  /// place; to be looked at only, not to go on from. Returns false where none is remembered.
+  /// place; to be looked at only, not to continue from. Returns false where none is remembered.
   bool exchange_with_last_good();
 
   /// Saves or restores all that changes from step to step. A simulation of the same case that a state was
-  /// restored into goes on to the same bits. Throws StateError.
+  /// restored into continues to the same bits. Throws StateError.
   void visit(StateArchive& state);
   double damping() const;  ///< c_d of eq. (34), or that of adaptive relaxation [1/s]
   const ScaledInertia& inertia() const { return to_rest_.inertia; }

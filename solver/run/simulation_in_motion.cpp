@@ -1,4 +1,4 @@
-// How a simulation of soil that rested in a flow goes on with its inertia once it fails, and how pore
+// How a simulation of soil that rested in a flow continues with its inertia once it fails, and how pore
 // pressure moves with soil.
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ void Simulation::end_after_motion() {
   clock_.last_step = std::min<std::int64_t>(clock_.last_step, std::llround(end / clock_.dt));
 }
 
-/// Equilibrium is lost within a moment from now: the soil goes on with its inertia.
+/// Equilibrium is lost within a moment from now: the soil continues with its inertia.
 void Simulation::begin_motion() {
   watch_.forget();
   motion_.failed_at = time();

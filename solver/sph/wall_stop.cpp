@@ -35,7 +35,7 @@ Vec2 WallStop::velocity_after(const Model& model, const Watched& watched, Vec2 v
   const double dx = model.spacing;
   for (const Wall& wall : model.walls) {
     const double towards = -velocity.dot(wall.normal);
-    // A particle that is in the wall already, by less than a spacing, does not go on.
+    // A particle that is in the wall already, by less than a spacing, goes no further.
     const double range = dx + watched.nearest + towards * step_;
     if (towards <= 0 || wall.is_periodic() || !wall.faces(p.position[a] + dx * wall.normal, range)) continue;
     const Hold hold = hold_of(wall, model.soils[p.soil[a]], p, a);

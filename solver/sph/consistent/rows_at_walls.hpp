@@ -53,14 +53,14 @@ class RowsAtWalls {
   std::vector<Gradients> gradient_;      ///< of each of those
 };
 
-/// Whether point b is soil: a particle, or its image at a periodic side, where the soil goes on.
+/// Whether point b is soil: a particle, or its image at a periodic side, where the soil continues.
 inline bool is_soil(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
   if (static_cast<std::size_t>(b) < n) return true;
   return r.ghosts.wall(b - n).is_periodic() && is_soil(r, r.ghosts.image(b - n).parent);
 }
 
-/// Whether point b is an image in a wall that holds soil fast, or what goes on of one at a periodic side.
+/// Whether point b is an image in a wall that holds soil fast, or the continuation of one at a periodic side.
 inline bool is_fixed_image(const ReferenceConfiguration& r, std::int32_t b) {
   const std::size_t n = r.particles();
   if (static_cast<std::size_t>(b) < n) return false;

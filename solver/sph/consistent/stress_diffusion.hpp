@@ -41,7 +41,7 @@ class StressDiffusion {
   void visit(StateArchive& state);
 
  private:
-  /// A ghost at a periodic side, where the soil goes on.
+  /// A ghost at a periodic side, where the soil continues.
   struct GoesOn {
     std::size_t ghost;
     std::int32_t root;
@@ -55,7 +55,7 @@ class StressDiffusion {
   std::vector<std::uint8_t> near_;
   std::vector<Mat2> correction_;
   std::vector<GoesOn> goes_on_;
-  std::vector<Stress> stress_;    ///< of particles and ghosts where soil goes on, or else of none [Pa]
+  std::vector<Stress> stress_;    ///< of particles and ghosts where soil continues, or else of none [Pa]
   std::vector<Stress> gradient_;  ///< along x, then along y, of each particle, and ghost [Pa/m]
   std::vector<Stress> change_;    ///< [Pa]
   double length_squared_ = 0;

@@ -33,7 +33,7 @@ void FlowLinks::link(const OutlineSight& sight, const CubicSpline<2>& kernel) {
 }
 
 /// The stretch that a line from one point to another meets first, -1 where it stays in the soil. Water
-/// does not pass around the outside of a corner. At a periodic stretch the soil goes on.
+/// does not pass around the outside of a corner. At a periodic stretch the soil continues.
 int FlowLinks::first_stretch_between(const Vec2& from, const Vec2& to) const {
   const double slack = on_outline * spacing_;
   int first = -1;
