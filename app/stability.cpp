@@ -20,7 +20,9 @@
 
 namespace porosph::app {
 
+#ifdef POROSPH_HAS_RENDER
 using namespace render;
+#endif
 
 namespace {
 
