@@ -72,8 +72,8 @@ std::vector<std::string> warnings_of_end(const Simulation& s) {
   if (s.seepage() == nullptr || s.in_motion() || s.instability() || moved < spacing) return {};
   return {
       fmt::format("soil has moved by up to {:.3g} m, more than the spacing of {:g} m, and yet came to rest "
-                  "at every output: "
-                  "it may have slid. Smaller particles may show that it loses its equilibrium",
+                  "at every output: it may have slid. Smaller particles may show that it loses its "
+                  "equilibrium",
                   moved, spacing)};
 }
 
